@@ -1,0 +1,1 @@
+//! Benchmarks of argil on generated instances.

@@ -1,0 +1,1 @@
+//! Measures any g-code file against its model by geometry alone.

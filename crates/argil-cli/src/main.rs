@@ -1,0 +1,2 @@
+//! The program `argil`.
+fn main() {}

@@ -1,0 +1,1 @@
+//! Closed curves and segment sets: arc length, distances, held spans, crossings.

@@ -1,0 +1,1 @@
+//! The elastic curve: shortens and smooths a path inside its support envelope.

@@ -1,0 +1,1 @@
+//! A strand into g-code, and g-code of any slicer back into moves.

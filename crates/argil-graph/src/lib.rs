@@ -1,0 +1,1 @@
+//! Triangulated free space between walls, with exact shortest paths and distances.

@@ -1,0 +1,1 @@
+//! Triangle meshes from the bytes of STL files: weld, check, orient, place.

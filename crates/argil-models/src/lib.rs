@@ -1,0 +1,1 @@
+//! Procedural solids that show what strictly continuous printing has to cope with.

@@ -1,0 +1,1 @@
+//! Pictures of a strand: SVG layers and a PNG overview.

@@ -1,0 +1,1 @@
+//! The self-supporting envelope that keeps support clear of the model below.

@@ -1,0 +1,1 @@
+//! A mesh into closed outlines, wall loops and their containment tree, layer by layer.

@@ -1,0 +1,1 @@
+//! Which spans of a deposition path hang in the air, and the fewest points that hold them.
