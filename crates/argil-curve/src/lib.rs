@@ -1,1 +1,18 @@
 //! Closed curves and segment sets: arc length, distances, held spans, crossings.
+#![forbid(unsafe_code)]
+
+mod capsule;
+mod closed_curve;
+mod error;
+mod held_spans;
+mod segment;
+mod segment_index;
+mod self_crossings;
+
+pub use closed_curve::{ClosedCurve, NearestOnCurve, OnCurve};
+pub use error::CurveError;
+pub use glam::DVec2;
+pub use held_spans::{ArcSpan, gaps, held_spans};
+pub use segment::{NearestOnSegment, Segment};
+pub use segment_index::{NearestSegment, SegmentIndex};
+pub use self_crossings::{Crossing, CrossingKind, self_crossings};

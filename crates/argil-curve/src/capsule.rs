@@ -1,0 +1,91 @@
+//! Which part of a segment lies within a distance of another: segment against capsule, in closed form.
+
+use crate::Segment;
+use glam::DVec2;
+
+/// The part of `segment` that lies within `radius` of `other`, as an interval of arc length from its start.
+///
+/// All points within a radius of a segment form a capsule: a disc about either end and the rectangle between
+/// them. A capsule is convex, so the part is one interval: the hull of the three that its pieces give.
+pub(crate) fn part_within(segment: &Segment, other: &Segment, radius: f64) -> Option<(f64, f64)> {
+    let length = segment.length();
+    let direction = (segment.end - segment.start) / length;
+    if !direction.is_finite() {
+        return None;
+    }
+    let ray = Ray { origin: segment.start, direction };
+    [ray.in_disc(other.start, radius), ray.in_disc(other.end, radius), ray.in_rectangle(other, radius)]
+        .into_iter()
+        .flatten()
+        .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+        .map(|(from, to)| (from.max(0.0), to.min(length)))
+        .filter(|(from, to)| from <= to)
+}
+
+/// The line of a segment with unit direction; intervals on it are in mm from the origin.
+struct Ray {
+    origin: DVec2,
+    direction: DVec2,
+}
+
+impl Ray {
+    fn in_disc(&self, centre: DVec2, radius: f64) -> Option<(f64, f64)> {
+        let to_centre = centre - self.origin;
+        let aside = self.direction.perp_dot(to_centre);
+        let middle = self.direction.dot(to_centre);
+        // As a product, so that a line that barely enters keeps its digits.
+        let squared = (radius - aside) * (radius + aside);
+        (squared >= 0.0).then(|| (middle - squared.sqrt(), middle + squared.sqrt()))
+    }
+
+    fn in_rectangle(&self, core: &Segment, radius: f64) -> Option<(f64, f64)> {
+        let length = core.length();
+        let axis = (core.end - core.start) / length;
+        if !axis.is_finite() {
+            return None;
+        }
+        let from_core = self.origin - core.start;
+        let along = between(axis.dot(from_core), axis.dot(self.direction), 0.0, length)?;
+        let aside = between(axis.perp_dot(from_core), axis.perp_dot(self.direction), -radius, radius)?;
+        Some((along.0.max(aside.0), along.1.min(aside.1))).filter(|(from, to)| from <= to)
+    }
+}
+
+/// Where the value `start + x * slope` lies between `low` and `high`.
+fn between(start: f64, slope: f64, low: f64, high: f64) -> Option<(f64, f64)> {
+    if slope == 0.0 {
+        return (low <= start && start <= high).then_some((f64::NEG_INFINITY, f64::INFINITY));
+    }
+    let (a, b) = ((low - start) / slope, (high - start) / slope);
+    Some((a.min(b), a.max(b)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn segment(a: (f64, f64), b: (f64, f64)) -> Segment {
+        Segment::new(DVec2::from(a), DVec2::from(b))
+    }
+
+    #[test]
+    fn a_line_across_a_capsule() {
+        let across = segment((0.0, -2.0), (0.0, 2.0));
+        assert_eq!(part_within(&across, &segment((-1.0, 0.0), (1.0, 0.0)), 0.5), Some((1.5, 2.5)));
+        assert_eq!(part_within(&across, &segment((0.3, 0.0), (5.0, 0.0)), 0.5), Some((1.6, 2.4)));
+        assert_eq!(part_within(&across, &segment((0.6, 0.0), (5.0, 0.0)), 0.5), None);
+    }
+
+    #[test]
+    fn parallel_at_the_very_radius_is_held() {
+        let bar = segment((0.0, 0.0), (4.0, 0.0));
+        assert_eq!(part_within(&bar, &segment((1.0, 0.5), (3.0, 0.5)), 0.5), Some((1.0, 3.0)));
+    }
+
+    #[test]
+    fn points_are_discs() {
+        let bar = segment((0.0, 0.0), (4.0, 0.0));
+        assert_eq!(part_within(&bar, &segment((2.0, 3.0), (2.0, 3.0)), 5.0), Some((0.0, 4.0)));
+        assert_eq!(part_within(&segment((1.0, 1.0), (1.0, 1.0)), &bar, 5.0), None);
+    }
+}

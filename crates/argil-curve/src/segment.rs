@@ -1,0 +1,136 @@
+//! A straight piece of a path.
+
+use glam::DVec2;
+use robust::{Coord, orient2d};
+
+/// A straight piece of a path, in millimetres. It may have no length: it then stands for a point.
+///
+/// # Example
+/// ```
+/// use argil_curve::{DVec2, Segment};
+/// let segment = Segment::new(DVec2::ZERO, DVec2::new(4.0, 0.0));
+/// let nearest = segment.nearest(DVec2::new(1.0, 3.0));
+/// assert_eq!((nearest.t, nearest.distance), (0.25, 3.0));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Segment {
+    /// Where the segment begins, mm.
+    pub start: DVec2,
+    /// Where the segment ends, mm.
+    pub end: DVec2,
+}
+
+/// The point of a segment that is nearest to some other point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NearestOnSegment {
+    /// Share of the segment's length that lies before the point, 0 at the start and 1 at the end.
+    pub t: f64,
+    /// The point itself, mm.
+    pub point: DVec2,
+    /// Its distance from the point that was asked about, mm.
+    pub distance: f64,
+}
+
+impl Segment {
+    /// The segment from `start` to `end`.
+    pub fn new(start: DVec2, end: DVec2) -> Self {
+        Self { start, end }
+    }
+
+    /// Length in mm.
+    pub fn length(&self) -> f64 {
+        self.start.distance(self.end)
+    }
+
+    /// The point at share `t` of the length. The ends come out exactly at `t` = 0 and `t` = 1.
+    pub fn point_at(&self, t: f64) -> DVec2 {
+        self.start.lerp(self.end, t)
+    }
+
+    /// The point of the segment nearest to `p`. A segment without length answers with its start.
+    pub fn nearest(&self, p: DVec2) -> NearestOnSegment {
+        let along = self.end - self.start;
+        let squared = along.length_squared();
+        let t = if squared > 0.0 { ((p - self.start).dot(along) / squared).clamp(0.0, 1.0) } else { 0.0 };
+        let point = self.point_at(t);
+        NearestOnSegment { t, point, distance: point.distance(p) }
+    }
+
+    /// Distance from `p` to the segment, mm.
+    pub fn distance(&self, p: DVec2) -> f64 {
+        self.nearest(p).distance
+    }
+
+    /// Least distance between the two segments, mm; 0 where they cross.
+    pub fn distance_to(&self, other: &Segment) -> f64 {
+        if self.crosses(other) {
+            return 0.0;
+        }
+        // Segments that do not cross are nearest to one another at an end of one of them.
+        self.distance(other.start)
+            .min(self.distance(other.end))
+            .min(other.distance(self.start))
+            .min(other.distance(self.end))
+    }
+
+    /// Whether the segments cross properly: each has its ends strictly on either side of the other.
+    ///
+    /// Touching, sharing an end and running along one another are no crossings. The sides come from a
+    /// predicate with exact arithmetic, so neighbours of a path, which share an end, never count.
+    pub fn crosses(&self, other: &Segment) -> bool {
+        parted(self, other.start, other.end) && parted(other, self.start, self.end)
+    }
+
+    /// The point where the lines through both segments meet; the middle of the shorter way for parallel ones.
+    pub(crate) fn meeting_point(&self, other: &Segment) -> DVec2 {
+        let (a, b) = (self.end - self.start, other.end - other.start);
+        let t = (other.start - self.start).perp_dot(b) / a.perp_dot(b);
+        if t.is_finite() { self.point_at(t.clamp(0.0, 1.0)) } else { self.point_at(0.5) }
+    }
+}
+
+/// On which side of the line from `a` to `b` the point `c` lies: positive on the left, 0 exactly on the line.
+pub(crate) fn side(a: DVec2, b: DVec2, c: DVec2) -> f64 {
+    let coord = |p: DVec2| Coord { x: p.x, y: p.y };
+    orient2d(coord(a), coord(b), coord(c))
+}
+
+fn parted(line: &Segment, p: DVec2, q: DVec2) -> bool {
+    let left = side(line.start, line.end, p);
+    let right = side(line.start, line.end, q);
+    (left > 0.0 && right < 0.0) || (left < 0.0 && right > 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn segment(a: (f64, f64), b: (f64, f64)) -> Segment {
+        Segment::new(DVec2::new(a.0, a.1), DVec2::new(b.0, b.1))
+    }
+
+    #[test]
+    fn touching_is_no_crossing() {
+        let bar = segment((0.0, 0.0), (2.0, 0.0));
+        assert!(bar.crosses(&segment((1.0, -1.0), (1.0, 1.0))));
+        assert!(!bar.crosses(&segment((1.0, 0.0), (1.0, 1.0))));
+        assert!(!bar.crosses(&segment((2.0, 0.0), (3.0, 1.0))));
+        assert!(!bar.crosses(&segment((1.0, 0.0), (3.0, 0.0))));
+        assert!(!bar.crosses(&bar));
+    }
+
+    #[test]
+    fn distance_between_segments() {
+        let bar = segment((0.0, 0.0), (2.0, 0.0));
+        assert_eq!(bar.distance_to(&segment((1.0, 2.0), (5.0, 2.0))), 2.0);
+        assert_eq!(bar.distance_to(&segment((1.0, -2.0), (1.0, 2.0))), 0.0);
+        assert_eq!(bar.distance_to(&segment((5.0, 4.0), (5.0, 4.0))), 5.0);
+    }
+
+    #[test]
+    fn a_point_is_a_segment_too() {
+        let point = segment((1.0, 1.0), (1.0, 1.0));
+        assert_eq!(point.nearest(DVec2::new(1.0, 3.0)).distance, 2.0);
+        assert_eq!(point.length(), 0.0);
+    }
+}

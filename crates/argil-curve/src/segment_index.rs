@@ -1,0 +1,372 @@
+//! A uniform grid over a set of segments, for distance and neighbourhood queries.
+
+use crate::{ClosedCurve, Segment};
+use glam::DVec2;
+
+/// Coordinates beyond this are left out of the grid: their squares overflow, so distances to them mean nothing.
+const LARGEST: f64 = 1e150;
+
+/// Cells allowed for each segment. A finer grid would spend its time on empty cells and, for segments that lie
+/// far apart, its memory too.
+const CELLS_PER_SEGMENT: usize = 4;
+
+/// A set of segments in a uniform grid: built once, then asked often.
+///
+/// Queries allocate nothing. Segments with a coordinate that is not finite (or beyond 1e150) stay in
+/// [`segments`](Self::segments), so that indices mean what the caller thinks, but are never found.
+///
+/// # Example
+/// ```
+/// use argil_curve::{DVec2, Segment, SegmentIndex};
+/// let rail = |y: f64| Segment::new(DVec2::new(0.0, y), DVec2::new(10.0, y));
+/// let index = SegmentIndex::new(vec![rail(0.0), rail(3.0)], 1.0);
+/// let nearest = index.nearest(DVec2::new(5.0, 2.0)).unwrap();
+/// assert_eq!((nearest.index, nearest.distance), (1, 1.0));
+/// assert!(index.nearest_within(DVec2::new(5.0, 1.5), 1.0).is_none());
+/// ```
+#[derive(Clone, Debug)]
+pub struct SegmentIndex {
+    segments: Vec<Segment>,
+    grid: Grid,
+    /// Items of cell c are `items[offsets[c]..offsets[c + 1]]`, in ascending order.
+    offsets: Vec<u32>,
+    items: Vec<u32>,
+}
+
+/// The segment of an index that is nearest to some point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NearestSegment {
+    /// Index of the segment in [`SegmentIndex::segments`].
+    pub index: usize,
+    /// The point of the segment that is nearest, mm.
+    pub point: DVec2,
+    /// Its distance from the point that was asked about, mm.
+    pub distance: f64,
+}
+
+impl SegmentIndex {
+    /// An index over `segments` with square cells of side `cell` mm; about the length of a segment or the usual
+    /// query radius, whichever is larger, serves best. The side grows where the grid would have more than four
+    /// cells a segment; one that is not positive is chosen from the extent of the set.
+    ///
+    /// # Complexity
+    /// O(n + cells covered by the segments).
+    pub fn new(segments: Vec<Segment>, cell: f64) -> Self {
+        let grid = Grid::over(&segments, cell);
+        let mut offsets = vec![0_u32; grid.columns * grid.rows + 1];
+        for segment in segments.iter().filter(|s| is_indexable(s)) {
+            grid.for_each_cell(segment, 0.0, |cell| offsets[cell + 1] += 1);
+        }
+        for cell in 1..offsets.len() {
+            offsets[cell] += offsets[cell - 1];
+        }
+        let mut items = vec![0_u32; offsets[offsets.len() - 1] as usize];
+        let mut next = offsets.clone();
+        for (k, segment) in segments.iter().enumerate().filter(|(_, s)| is_indexable(s)) {
+            grid.for_each_cell(segment, 0.0, |cell| {
+                items[next[cell] as usize] = k as u32;
+                next[cell] += 1;
+            });
+        }
+        Self { segments, grid, offsets, items }
+    }
+
+    /// An index over all segments of `curves`, in order.
+    pub fn of_curves<'a>(curves: impl IntoIterator<Item = &'a ClosedCurve>, cell: f64) -> Self {
+        Self::new(curves.into_iter().flat_map(ClosedCurve::segments).collect(), cell)
+    }
+
+    /// The segments, in the order in which they were given.
+    pub fn segments(&self) -> &[Segment] {
+        &self.segments
+    }
+
+    /// Whether there is no segment that a query could find.
+    pub fn is_empty(&self) -> bool {
+        self.items.is_empty()
+    }
+
+    /// The segment nearest to `p`, the one of the lowest index among equals; `None` when the index is empty or
+    /// `p` is not finite.
+    ///
+    /// # Complexity
+    /// O(1) near evenly spread segments; never more than the number of cells and items.
+    pub fn nearest(&self, p: DVec2) -> Option<NearestSegment> {
+        self.search(p, f64::INFINITY)
+    }
+
+    /// Distance from `p` to the nearest segment, mm; infinity when there is none.
+    pub fn distance(&self, p: DVec2) -> f64 {
+        self.nearest(p).map_or(f64::INFINITY, |nearest| nearest.distance)
+    }
+
+    /// The nearest segment, if it lies no further than `radius` mm from `p`.
+    pub fn nearest_within(&self, p: DVec2, radius: f64) -> Option<NearestSegment> {
+        self.search(p, radius)
+    }
+
+    /// Visits every segment that may lie within `radius` mm of `segment`, each once, in an order that depends on
+    /// nothing but the index and the query. Some that lie a cell further are visited too: the caller measures.
+    ///
+    /// # Complexity
+    /// O(cells within the radius + segments in them), without allocation.
+    pub fn for_each_near(&self, segment: Segment, radius: f64, mut visit: impl FnMut(usize, Segment)) {
+        if self.is_empty() || !is_indexable(&segment) || radius.is_nan() || radius < 0.0 {
+            return;
+        }
+        let radius = radius.min(LARGEST);
+        let Some((first_row, last_row)) = self.grid.rows_of(&segment, radius) else { return };
+        for row in first_row..=last_row {
+            let Some((first, last)) = self.grid.columns_of(&segment, row, radius) else { continue };
+            for column in first..=last {
+                for &item in self.items_of(column, row) {
+                    let found = &self.segments[item as usize];
+                    if self.grid.first_shared(found, &segment, radius, first_row, row) == Some((column, row))
+                    {
+                        visit(item as usize, *found);
+                    }
+                }
+            }
+        }
+    }
+
+    fn items_of(&self, column: usize, row: usize) -> &[u32] {
+        let cell = row * self.grid.columns + column;
+        &self.items[self.offsets[cell] as usize..self.offsets[cell + 1] as usize]
+    }
+
+    /// Rings of cells about the cell nearest to `p`, until what is left of the grid lies further away than the
+    /// best segment so far.
+    fn search(&self, p: DVec2, limit: f64) -> Option<NearestSegment> {
+        if self.is_empty() || !p.is_finite() {
+            return None;
+        }
+        let (column, row) = self.grid.cell_at(p);
+        let mut best: Option<NearestSegment> = None;
+        let mut ring = 0;
+        loop {
+            let (west, east) =
+                (column.checked_sub(ring), Some(column + ring).filter(|&c| c < self.grid.columns));
+            let (south, north) = (row.checked_sub(ring), Some(row + ring).filter(|&r| r < self.grid.rows));
+            let columns = west.unwrap_or(0)..=east.unwrap_or(self.grid.columns - 1);
+            for row in south.into_iter().chain(north.filter(|_| ring > 0)) {
+                for column in columns.clone() {
+                    self.improve(p, limit, column, row, &mut best);
+                }
+            }
+            if ring > 0 {
+                let above = south.map_or(0, |s| s + 1);
+                let below = north.unwrap_or(self.grid.rows);
+                for column in west.into_iter().chain(east) {
+                    for row in above..below {
+                        self.improve(p, limit, column, row, &mut best);
+                    }
+                }
+            }
+            let reached = best.map_or(limit, |b| b.distance);
+            match self.grid.distance_beyond(p, column, row, ring) {
+                Some(beyond) if beyond <= reached => ring += 1,
+                _ => return best,
+            }
+        }
+    }
+
+    fn improve(&self, p: DVec2, limit: f64, column: usize, row: usize, best: &mut Option<NearestSegment>) {
+        for &item in self.items_of(column, row) {
+            let index = item as usize;
+            let nearest = self.segments[index].nearest(p);
+            let better = match best {
+                Some(b) => {
+                    nearest.distance < b.distance || (nearest.distance == b.distance && index < b.index)
+                }
+                None => nearest.distance <= limit,
+            };
+            if better {
+                *best = Some(NearestSegment { index, point: nearest.point, distance: nearest.distance });
+            }
+        }
+    }
+}
+
+fn is_indexable(segment: &Segment) -> bool {
+    let within = |p: DVec2| p.x.abs() <= LARGEST && p.y.abs() <= LARGEST;
+    within(segment.start) && within(segment.end)
+}
+
+/// The cells: where they lie and which of them a segment, or all within a radius of it, touches.
+///
+/// A segment touches one run of columns in each row. Both the filling and the asking use that run, so a segment
+/// that lies within the radius always shares a cell with the query.
+#[derive(Clone, Debug)]
+struct Grid {
+    origin: DVec2,
+    cell: f64,
+    columns: usize,
+    rows: usize,
+    /// Added on every side of a run so that rounding loses no cell, mm.
+    slack: f64,
+}
+
+impl Grid {
+    fn over(segments: &[Segment], cell: f64) -> Self {
+        let mut low = DVec2::INFINITY;
+        let mut high = DVec2::NEG_INFINITY;
+        let mut count = 0;
+        for s in segments.iter().filter(|s| is_indexable(s)) {
+            low = low.min(s.start).min(s.end);
+            high = high.max(s.start).max(s.end);
+            count += 1;
+        }
+        if count == 0 {
+            return Self { origin: DVec2::ZERO, cell: 1.0, columns: 1, rows: 1, slack: 0.0 };
+        }
+        let extent = high - low;
+        let most = (CELLS_PER_SEGMENT * count + 4) as f64;
+        let wanted =
+            if cell > 0.0 && cell.is_finite() { cell } else { extent.max_element() / (count as f64).sqrt() };
+        let mut cell = wanted.max(extent.max_element() / most).max(f64::MIN_POSITIVE);
+        let cells = |cell: f64| (extent / cell).floor() + DVec2::ONE;
+        while cells(cell).element_product() > most {
+            cell *= 1.25;
+        }
+        let count = cells(cell);
+        let slack = 1e-9 * cell + 8.0 * f64::EPSILON * low.abs().max(high.abs()).max_element();
+        Self { origin: low, cell, columns: count.x as usize, rows: count.y as usize, slack }
+    }
+
+    fn cell_at(&self, p: DVec2) -> (usize, usize) {
+        // Float to integer casts saturate, so points far outside land in the border cells.
+        let at = (p - self.origin) / self.cell;
+        ((at.x as usize).min(self.columns - 1), (at.y as usize).min(self.rows - 1))
+    }
+
+    /// The run of cells along one axis that meets the interval from `low` to `high`, measured from the origin.
+    fn run(&self, low: f64, high: f64, count: usize) -> Option<(usize, usize)> {
+        let (first, last) = (low / self.cell, high / self.cell);
+        if last < 0.0 || first >= count as f64 || first.is_nan() || last.is_nan() {
+            return None;
+        }
+        Some((first as usize, (last as usize).min(count - 1)))
+    }
+
+    /// Rows that hold points within `radius` of the segment.
+    fn rows_of(&self, s: &Segment, radius: f64) -> Option<(usize, usize)> {
+        let (a, b) = (s.start.y - self.origin.y, s.end.y - self.origin.y);
+        let reach = radius + self.slack;
+        self.run(a.min(b) - reach, a.max(b) + reach, self.rows)
+    }
+
+    /// Columns of `row` that hold points within `radius` of the segment.
+    fn columns_of(&self, s: &Segment, row: usize, radius: f64) -> Option<(usize, usize)> {
+        let reach = radius + self.slack;
+        let (a, b) = (s.start - self.origin, s.end - self.origin);
+        let low = row as f64 * self.cell - reach;
+        let high = (row + 1) as f64 * self.cell + reach;
+        let rise = b.y - a.y;
+        let (mut from, mut to) = (0.0, 1.0);
+        if rise != 0.0 {
+            let (t, u) = ((low - a.y) / rise, (high - a.y) / rise);
+            (from, to) = (t.min(u).clamp(0.0, 1.0), t.max(u).clamp(0.0, 1.0));
+        }
+        let (x, y) = (a.x + from * (b.x - a.x), a.x + to * (b.x - a.x));
+        self.run(x.min(y) - reach, x.max(y) + reach, self.columns)
+    }
+
+    fn for_each_cell(&self, s: &Segment, radius: f64, mut visit: impl FnMut(usize)) {
+        let Some((first, last)) = self.rows_of(s, radius) else { return };
+        for row in first..=last {
+            if let Some((west, east)) = self.columns_of(s, row, radius) {
+                (west..=east).for_each(|column| visit(row * self.columns + column));
+            }
+        }
+    }
+
+    /// The first cell, row by row, that both the stored segment and the query touch, looked for in the rows from
+    /// `first_row`, where the query begins, up to `last_row`. A stored segment is reported from there alone.
+    fn first_shared(
+        &self,
+        stored: &Segment,
+        query: &Segment,
+        radius: f64,
+        first_row: usize,
+        last_row: usize,
+    ) -> Option<(usize, usize)> {
+        let (start, _) = self.rows_of(stored, 0.0)?;
+        (start.max(first_row)..=last_row).find_map(|row| {
+            let (west, east) = self.columns_of(stored, row, 0.0)?;
+            let (first, last) = self.columns_of(query, row, radius)?;
+            (west.max(first) <= east.min(last)).then_some((west.max(first), row))
+        })
+    }
+
+    /// Least distance from `p` to the part of the grid outside the block of cells within `ring` of a cell, less
+    /// the rounding; `None` when the block covers the grid.
+    fn distance_beyond(&self, p: DVec2, column: usize, row: usize, ring: usize) -> Option<f64> {
+        let p = p - self.origin;
+        let size = DVec2::new(self.columns as f64, self.rows as f64) * self.cell;
+        let to_box = |low: DVec2, high: DVec2| (p - p.clamp(low, high)).length();
+        let edge = |cells: usize| cells as f64 * self.cell;
+        let mut least: Option<f64> = None;
+        let mut consider = |low: DVec2, high: DVec2| {
+            let distance = (to_box(low, high) - 2.0 * self.slack).max(0.0);
+            least = Some(least.map_or(distance, |l: f64| l.min(distance)));
+        };
+        if column > ring {
+            consider(DVec2::ZERO, DVec2::new(edge(column - ring), size.y));
+        }
+        if column + ring + 1 < self.columns {
+            consider(DVec2::new(edge(column + ring + 1), 0.0), size);
+        }
+        if row > ring {
+            consider(DVec2::ZERO, DVec2::new(size.x, edge(row - ring)));
+        }
+        if row + ring + 1 < self.rows {
+            consider(DVec2::new(0.0, edge(row + ring + 1)), size);
+        }
+        least
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn point(x: f64, y: f64) -> Segment {
+        Segment::new(DVec2::new(x, y), DVec2::new(x, y))
+    }
+
+    #[test]
+    fn empty_and_odd_sets_answer_nothing() {
+        let empty = SegmentIndex::new(Vec::new(), 1.0);
+        assert!(empty.is_empty() && empty.nearest(DVec2::ZERO).is_none());
+        assert_eq!(empty.distance(DVec2::ZERO), f64::INFINITY);
+        let odd = SegmentIndex::new(vec![point(f64::NAN, 0.0), point(1e200, 0.0), point(2.0, 0.0)], f64::NAN);
+        assert_eq!(odd.nearest(DVec2::ZERO).map(|n| n.index), Some(2));
+        assert_eq!(odd.nearest(DVec2::NAN), None);
+    }
+
+    #[test]
+    fn far_apart_segments_keep_the_grid_small() {
+        let index = SegmentIndex::new(vec![point(0.0, 0.0), point(1e9, 1e9), point(-1e9, 3.0)], 1e-6);
+        assert!(index.offsets.len() <= 4 * 3 + 5);
+        assert_eq!(index.nearest(DVec2::new(4e8, 4e8)).map(|n| n.index), Some(0));
+        assert_eq!(index.nearest(DVec2::new(1e12, 1e12)).map(|n| n.index), Some(1));
+    }
+
+    #[test]
+    fn equal_points_share_one_cell() {
+        let index = SegmentIndex::new(vec![point(5.0, 5.0); 3], 1.0);
+        assert_eq!(index.nearest(DVec2::new(5.0, 6.0)).map(|n| n.index), Some(0));
+        let mut seen = Vec::new();
+        index.for_each_near(point(5.0, 5.0), 0.0, |k, _| seen.push(k));
+        assert_eq!(seen, [0, 1, 2]);
+    }
+
+    #[test]
+    fn a_long_diagonal_fills_no_square() {
+        let mut segments: Vec<Segment> = (0..1000).map(|k| point(f64::from(k), 0.0)).collect();
+        segments.push(Segment::new(DVec2::ZERO, DVec2::new(1000.0, 1000.0)));
+        let index = SegmentIndex::new(segments, 1.0);
+        assert!(index.items.len() < 2_000);
+    }
+}

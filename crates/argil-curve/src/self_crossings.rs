@@ -1,0 +1,159 @@
+//! Where a closed polyline crosses itself.
+
+use crate::{Segment, SegmentIndex};
+use glam::DVec2;
+use std::f64::consts::TAU;
+
+/// Vertices no further apart than this are one place, mm: the grid of the printed output.
+const SAME_PLACE: f64 = 1e-4;
+
+/// A vertex whose next one is no further than this has no direction of its own and is passed over, mm.
+const NO_DIRECTION: f64 = 1e-6;
+
+/// Directions that differ by less than this are one, in radians: the strands then run along each other.
+const SAME_DIRECTION: f64 = 1e-6;
+
+/// A place where a closed polyline crosses itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crossing {
+    /// The lower index: of a segment (named by the vertex at which it begins) or of a vertex, by `kind`.
+    pub first: usize,
+    /// The higher index, of the same kind.
+    pub second: usize,
+    /// Where they cross, mm.
+    pub point: DVec2,
+    /// How they cross.
+    pub kind: CrossingKind,
+}
+
+/// How a polyline crosses itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum CrossingKind {
+    /// Two segments cross inside both of them.
+    Proper,
+    /// Two vertices coincide and the four ends of the strands through them alternate round the point.
+    AtVertex,
+}
+
+/// All places where the closed polyline through `points` crosses itself, proper crossings first, then those at
+/// vertices, each in the order of their indices.
+///
+/// Vertices coincide when they are no more than 1e-4 mm apart. Strands that touch without changing sides, or
+/// run along each other, are no crossings; neither is a vertex on the middle of a segment. Points that are not
+/// finite take no part.
+///
+/// # Complexity
+/// Near-linear for points spread evenly, since only segments in the same cells of a grid are compared.
+///
+/// # Example
+/// ```
+/// use argil_curve::{CrossingKind, DVec2, self_crossings};
+/// let bow_tie = [(0.0, 0.0), (2.0, 2.0), (2.0, 0.0), (0.0, 2.0)].map(DVec2::from);
+/// let found = self_crossings(&bow_tie);
+/// assert_eq!(found.len(), 1);
+/// assert_eq!((found[0].first, found[0].second, found[0].kind), (0, 2, CrossingKind::Proper));
+/// assert_eq!(found[0].point, DVec2::new(1.0, 1.0));
+/// ```
+pub fn self_crossings(points: &[DVec2]) -> Vec<Crossing> {
+    let mut found = proper_crossings(points);
+    found.extend(vertex_crossings(points));
+    found
+}
+
+fn proper_crossings(points: &[DVec2]) -> Vec<Crossing> {
+    let n = points.len();
+    let segments: Vec<Segment> = (0..n).map(|k| Segment::new(points[k], points[(k + 1) % n])).collect();
+    let index = SegmentIndex::new(segments, mean_step(points));
+    let mut found = Vec::new();
+    for (first, segment) in index.segments().iter().enumerate() {
+        index.for_each_near(*segment, 0.0, |second, other| {
+            if second > first && segment.crosses(&other) {
+                let point = segment.meeting_point(&other);
+                found.push(Crossing { first, second, point, kind: CrossingKind::Proper });
+            }
+        });
+    }
+    found.sort_by_key(|c| (c.first, c.second));
+    found
+}
+
+fn vertex_crossings(points: &[DVec2]) -> Vec<Crossing> {
+    let n = points.len();
+    let kept: Vec<usize> =
+        (0..n).filter(|&k| points[k].distance(points[(k + 1) % n]) > NO_DIRECTION).collect();
+    let m = kept.len();
+    if m < 4 {
+        return Vec::new();
+    }
+    let at = |k: usize| points[kept[k % m]];
+    let places = (0..m).map(|k| Segment::new(at(k), at(k))).collect();
+    let index = SegmentIndex::new(places, mean_step(points));
+    let mut found = Vec::new();
+    for i in 0..m {
+        index.for_each_near(Segment::new(at(i), at(i)), SAME_PLACE, |j, _| {
+            let neighbours = j <= i + 1 || j - i == m - 1;
+            if neighbours || at(i).distance(at(j)) > SAME_PLACE {
+                return;
+            }
+            if ends_alternate(at(i), [at(i + m - 1), at(i + 1)], [at(j + m - 1), at(j + 1)]) {
+                let (first, second) = (kept[i], kept[j]);
+                found.push(Crossing { first, second, point: at(i), kind: CrossingKind::AtVertex });
+            }
+        });
+    }
+    found.sort_by_key(|c| (c.first, c.second));
+    found
+}
+
+/// Whether, going round `centre`, one end of the second strand lies between the ends of the first and the
+/// other does not.
+fn ends_alternate(centre: DVec2, first: [DVec2; 2], second: [DVec2; 2]) -> bool {
+    let angle = |p: DVec2| (p - centre).to_angle();
+    let start = angle(first[0]);
+    let turn = |p: DVec2| (angle(p) - start).rem_euclid(TAU);
+    let across = turn(first[1]);
+    let [a, b] = second.map(turn);
+    let along_each_other = [a, b].iter().any(|&end| {
+        (end - across).abs() < SAME_DIRECTION || end < SAME_DIRECTION || TAU - end < SAME_DIRECTION
+    });
+    !along_each_other && (a < across) != (b < across)
+}
+
+/// A cell about as long as a segment keeps both the cells of a segment and the segments of a cell few.
+fn mean_step(points: &[DVec2]) -> f64 {
+    let n = points.len();
+    let total: f64 = (0..n).map(|k| points[k].distance(points[(k + 1) % n])).filter(|d| d.is_finite()).sum();
+    total / n.max(1) as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn crossings(points: &[(f64, f64)]) -> Vec<(usize, usize, CrossingKind)> {
+        let points: Vec<DVec2> = points.iter().map(|&p| p.into()).collect();
+        self_crossings(&points).iter().map(|c| (c.first, c.second, c.kind)).collect()
+    }
+
+    #[test]
+    fn a_crossing_at_a_shared_vertex() {
+        let eight = [(0.0, 0.0), (1.0, 1.0), (2.0, 0.0), (2.0, 2.0), (1.0, 1.0), (0.0, 2.0)];
+        assert!(crossings(&eight).is_empty(), "two triangles that touch at their tips do not cross");
+        let eight = [(0.0, 0.0), (1.0, 1.0), (2.0, 2.0), (2.0, 0.0), (1.0, 1.0), (0.0, 2.0)];
+        assert_eq!(crossings(&eight), [(1, 4, CrossingKind::AtVertex)]);
+    }
+
+    #[test]
+    fn there_and_back_is_no_crossing() {
+        assert!(
+            crossings(&[(0.0, 0.0), (1.0, 0.0), (2.0, 1.0), (3.0, 0.0), (2.0, 1.0), (1.0, 0.0)]).is_empty()
+        );
+    }
+
+    #[test]
+    fn odd_input_crosses_nothing() {
+        assert!(crossings(&[]).is_empty());
+        assert!(crossings(&[(1.0, 1.0); 5]).is_empty());
+        assert!(crossings(&[(0.0, 0.0), (f64::NAN, 2.0), (2.0, 0.0), (0.0, 2.0)]).is_empty());
+    }
+}
