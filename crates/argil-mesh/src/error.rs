@@ -1,0 +1,68 @@
+use thiserror::Error;
+
+/// Why bytes are no mesh, or why a mesh cannot be placed.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum MeshError {
+    /// There are no bytes at all.
+    #[error("the file is empty")]
+    Empty,
+    /// A binary STL whose length does not fit the triangle count in its header.
+    ///
+    /// Reading what is there would print part of a model without a word, so neither a short nor a
+    /// long file is accepted.
+    #[error("the header declares {declared} triangles, but the file holds {present} ({extra} bytes over)")]
+    Truncated {
+        /// The count in the header.
+        declared: u64,
+        /// How many whole triangles follow the header.
+        present: u64,
+        /// Bytes after the last whole triangle.
+        extra: u64,
+    },
+    /// Neither a binary STL nor a text one.
+    #[error("no STL: line {line}: expected {expected}")]
+    Unreadable {
+        /// The line of the text, counted from 1 (0 where the file is no text).
+        line: usize,
+        /// What should have stood there.
+        expected: &'static str,
+    },
+    /// The file is well formed, but no triangle has three different corners.
+    #[error("no triangle with three different corners")]
+    NoTriangles,
+    /// A coordinate that is not a number, is infinite, or is beyond what arithmetic on lengths can carry.
+    #[error("triangle {triangle} has a coordinate that is not finite or is beyond {limit:e} mm", limit = crate::mesh::LARGEST)]
+    NotFinite {
+        /// Index of the triangle, in file order.
+        triangle: usize,
+    },
+    /// A triangle names a vertex that does not exist.
+    #[error("triangle {triangle} names vertex {vertex}, which does not exist")]
+    NoSuchVertex {
+        /// Index of the triangle.
+        triangle: usize,
+        /// The index it names.
+        vertex: u32,
+    },
+    /// More vertices than 32-bit indices can tell apart.
+    #[error("{count} corners are more than 32-bit indices can name")]
+    TooMany {
+        /// How many corners were given.
+        count: usize,
+    },
+    /// A scale factor that is not a positive finite number.
+    #[error("cannot scale by {factor}")]
+    Scale {
+        /// The factor that was asked for.
+        factor: f64,
+    },
+    /// A target height that is not a positive finite number, or that a mesh of this height cannot be scaled to.
+    #[error("cannot scale a mesh of height {from} mm to {to} mm")]
+    Height {
+        /// The height of the mesh in millimetres.
+        from: f64,
+        /// The height that was asked for in millimetres.
+        to: f64,
+    },
+}
