@@ -1,1 +1,13 @@
-//! The strand as data: one unbroken polyline of beads, layer above layer, each with its role.
+#![doc = include_str!("../README.md")]
+#![forbid(unsafe_code)]
+
+mod bead;
+mod lengths;
+mod role;
+mod strand;
+
+pub use bead::BeadShape;
+pub use glam::{DVec2, DVec3};
+pub use lengths::{LayerSummary, RoleLengths};
+pub use role::Role;
+pub use strand::{Move, Step, Strand, StrandError, StrandLayer, SupportSource};

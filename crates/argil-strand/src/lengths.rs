@@ -1,0 +1,56 @@
+//! Lengths and volumes by role.
+
+use crate::Role;
+
+/// Length in mm laid in each role.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct RoleLengths {
+    by_role: [f64; Role::ALL.len()],
+}
+
+impl RoleLengths {
+    /// Length in mm laid in one role.
+    pub fn of(&self, role: Role) -> f64 {
+        self.by_role[role.position()]
+    }
+
+    /// Length in mm over all roles.
+    pub fn total(&self) -> f64 {
+        self.by_role.iter().sum()
+    }
+
+    /// Length in mm of what stays in the part.
+    pub fn model(&self) -> f64 {
+        Role::ALL.into_iter().filter(|role| role.is_model()).map(|role| self.of(role)).sum()
+    }
+
+    /// Length in mm of what is cut away after printing.
+    pub fn non_model(&self) -> f64 {
+        Role::ALL.into_iter().filter(|role| !role.is_model()).map(|role| self.of(role)).sum()
+    }
+
+    /// Adds a length in mm to a role.
+    pub fn add(&mut self, role: Role, length: f64) {
+        self.by_role[role.position()] += length;
+    }
+}
+
+/// What one layer holds, for tables and reports.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub struct LayerSummary {
+    /// The layer's own number, as in [`StrandLayer::index`](crate::StrandLayer::index).
+    pub index: usize,
+    /// Height of the top of the bead above the bed, mm.
+    pub z: f64,
+    /// Moves of the layer, the seam step included.
+    pub moves: usize,
+    /// Support points that the layer's path passes for the layer above.
+    pub supports: usize,
+    /// Length by role, mm; the seam step is counted with the layer that it leads to.
+    pub lengths: RoleLengths,
+    /// Paste of the layer, mm³, with rounded beads.
+    pub volume: f64,
+}

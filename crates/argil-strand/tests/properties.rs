@@ -1,0 +1,143 @@
+//! Invariants of strands: what `Strand::new` lets in, and what the measures add up to.
+
+use argil_strand::{BeadShape, DVec2, Move, Role, Strand, StrandError, StrandLayer};
+use proptest::prelude::*;
+
+const ROLES: [Role; 3] = [Role::Wall, Role::Support, Role::Connection];
+
+/// Layers of random cycles, each reached by a seam step.
+fn strands() -> impl Strategy<Value = (DVec2, Vec<StrandLayer>)> {
+    let point = (-50.0..50.0f64, -50.0..50.0f64).prop_map(|(x, y)| DVec2::new(x, y));
+    let cycle = prop::collection::vec((point, 0..3usize), 1..12);
+    prop::collection::vec((cycle, 0.1..2.0f64, 0.1..4.0f64, 1..3usize), 1..6).prop_map(|cycles| {
+        let start = cycles[0].0[0].0;
+        let (mut z, mut index) = (0.0, 0);
+        let mut layers = Vec::new();
+        for (cycle, height, width, skip) in cycles {
+            z += height;
+            index += skip;
+            let seam = cycle[0].0;
+            let rise = (!layers.is_empty()).then_some(Move { to: seam, role: Role::Seam });
+            let turn = cycle[1..].iter().map(|&(to, role)| Move { to, role: ROLES[role] });
+            let back = Move { to: seam, role: Role::Wall };
+            let moves = rise.into_iter().chain(turn).chain([back]).collect();
+            layers.push(StrandLayer { index, z, height, width, moves, supports: vec![] });
+        }
+        (start, layers)
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 128, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn every_step_begins_where_the_one_before_ended((start, layers) in strands()) {
+        let strand = Strand::new(start, layers).unwrap();
+        let steps: Vec<_> = strand.steps().collect();
+        prop_assert_eq!(steps[0].from.truncate(), start);
+        for pair in steps.windows(2) {
+            prop_assert_eq!(pair[0].to, pair[1].from);
+        }
+        prop_assert_eq!(steps[steps.len() - 1].to.truncate(), strand.end());
+        prop_assert_eq!(steps.len(), strand.layers().iter().map(|layer| layer.moves.len()).sum::<usize>());
+    }
+
+    #[test]
+    fn polylines_close_and_the_measures_add_up((start, layers) in strands()) {
+        let strand = Strand::new(start, layers).unwrap();
+        let mut planar = 0.0;
+        for k in 0..strand.layers().len() {
+            let line = strand.polyline(k);
+            prop_assert_eq!(line.first(), line.last());
+            prop_assert_eq!(line.first().copied(), strand.seam(k));
+            planar += line.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>();
+        }
+        let seams = strand.length_of(Role::Seam);
+        prop_assert!((strand.length() - planar - seams).abs() < 1e-9 * strand.length().max(1.0));
+        let summaries = strand.summaries();
+        let volume: f64 = summaries.iter().map(|summary| summary.volume).sum();
+        prop_assert!((volume - strand.volume()).abs() < 1e-9 * volume.max(1.0));
+        for role in Role::ALL {
+            let length: f64 = summaries.iter().map(|summary| summary.lengths.of(role)).sum();
+            prop_assert!((length - strand.length_of(role)).abs() < 1e-9 * length.max(1.0));
+        }
+        prop_assert!(strand.volume() <= strand.volume_as(BeadShape::Box) * (1.0 + 1e-12));
+    }
+
+    #[test]
+    fn one_spoilt_coordinate_is_refused(
+        (start, mut layers) in strands(), pick in any::<prop::sample::Index>(),
+        bad in prop::sample::select(vec![f64::NAN, f64::INFINITY, f64::NEG_INFINITY]),
+    ) {
+        let k = pick.index(layers.len());
+        let last = layers[k].moves.len() - 1;
+        layers[k].moves[last].to.y = bad;
+        let refused = matches!(Strand::new(start, layers), Err(StrandError::NotFinite { layer, .. }) if layer == k);
+        prop_assert!(refused);
+    }
+
+    #[test]
+    fn an_open_layer_is_refused((start, mut layers) in strands(), pick in any::<prop::sample::Index>()) {
+        let k = pick.index(layers.len());
+        let last = layers[k].moves.len() - 1;
+        layers[k].moves[last].to.x += 0.001;
+        let refused = matches!(Strand::new(start, layers), Err(StrandError::Open { layer, .. }) if layer == k);
+        prop_assert!(refused);
+    }
+
+    #[test]
+    fn a_bead_grows_with_its_size(width in 0.01..10.0f64, height in 0.01..10.0f64, more in 0.001..1.0f64) {
+        for shape in [BeadShape::Rounded, BeadShape::Box] {
+            prop_assert!(shape.area(width + more, height) > shape.area(width, height));
+            prop_assert!(shape.area(width, height + more) >= shape.area(width, height) * (1.0 - 1e-12));
+        }
+        prop_assert!(BeadShape::Rounded.area(width, height) < BeadShape::Box.area(width, height));
+    }
+}
+
+/// Two layers of a triangle, to be spoilt.
+fn triangle() -> (DVec2, Vec<StrandLayer>) {
+    let to = |x, y, role| Move { to: DVec2::new(x, y), role };
+    let turn = [to(9.0, 0.0, Role::Wall), to(4.0, 6.0, Role::Wall), to(0.0, 0.0, Role::Wall)];
+    let above = [to(0.0, 0.0, Role::Seam)].into_iter().chain(turn).collect();
+    let layer =
+        |index, z, moves| StrandLayer { index, z, height: 0.5, width: 1.5, moves, supports: Vec::new() };
+    (DVec2::ZERO, vec![layer(0, 0.5, turn.to_vec()), layer(1, 1.0, above)])
+}
+
+#[test]
+fn every_departure_has_its_own_error() {
+    let spoilt = |spoil: &dyn Fn(&mut Vec<StrandLayer>)| {
+        let (start, mut layers) = triangle();
+        spoil(&mut layers);
+        Strand::new(start, layers).unwrap_err()
+    };
+    assert!(matches!(spoilt(&|l| l.clear()), StrandError::NoLayers));
+    assert!(matches!(spoilt(&|l| l[1].z = 0.5), StrandError::NotRising { layer: 1, .. }));
+    assert!(matches!(spoilt(&|l| l[1].index = 0), StrandError::NumberNotRising { layer: 1, .. }));
+    assert!(matches!(spoilt(&|l| l[1].moves[0].role = Role::Wall), StrandError::NoSeamStep { layer: 1 }));
+    assert!(matches!(spoilt(&|l| l[0].moves.clear()), StrandError::NoMoves { layer: 0 }));
+    assert!(matches!(spoilt(&|l| l[1].moves.truncate(1)), StrandError::NoMoves { layer: 1 }));
+    assert!(matches!(spoilt(&|l| l[1].width = 0.0), StrandError::NoBead { layer: 1, .. }));
+    assert!(matches!(spoilt(&|l| l[0].moves.truncate(2)), StrandError::Open { layer: 0, .. }));
+}
+
+#[test]
+fn positions_above_the_uppermost_layer_are_empty() {
+    let (start, layers) = triangle();
+    let strand = Strand::new(start, layers).unwrap();
+    assert_eq!(strand.seam(2), None);
+    assert!(strand.cycle(2).is_empty());
+    assert!(strand.polyline(2).is_empty());
+}
+
+#[cfg(feature = "serde")]
+#[test]
+fn a_strand_survives_json_and_a_broken_one_is_refused() {
+    let (start, layers) = triangle();
+    let strand = Strand::new(start, layers).unwrap();
+    let text = serde_json::to_string(&strand).unwrap();
+    assert_eq!(serde_json::from_str::<Strand>(&text).unwrap(), strand);
+    let broken = text.replace("\"seam\"", "\"wall\"");
+    assert!(serde_json::from_str::<Strand>(&broken).is_err());
+}
