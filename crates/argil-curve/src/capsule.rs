@@ -3,23 +3,43 @@
 use crate::Segment;
 use glam::DVec2;
 
-/// The part of `segment` that lies within `radius` of `other`, as an interval of arc length from its start.
-///
-/// All points within a radius of a segment form a capsule: a disc about either end and the rectangle between
-/// them. A capsule is convex, so the part is one interval: the hull of the three that its pieces give.
-pub(crate) fn part_within(segment: &Segment, other: &Segment, radius: f64) -> Option<(f64, f64)> {
-    let length = segment.length();
-    let direction = (segment.end - segment.start) / length;
-    if !direction.is_finite() {
-        return None;
+/// A stretch of a segment, by arc length from the segment's start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SegmentPart {
+    /// Where the stretch begins, mm.
+    pub from: f64,
+    /// Where the stretch ends, mm; not before `from`.
+    pub to: f64,
+}
+
+impl Segment {
+    /// The part of this segment that lies within `radius` mm of `other`; `None` where no part does, or where this
+    /// segment has no length.
+    ///
+    /// All points within a radius of a segment form a capsule: a disc about either end and the rectangle between
+    /// them. A capsule is convex, so the part is one interval: the hull of the three that its pieces give.
+    ///
+    /// # Example
+    /// ```
+    /// use argil_curve::{DVec2, Segment, SegmentPart};
+    /// let strand = Segment::new(DVec2::new(0.0, -2.0), DVec2::new(0.0, 2.0));
+    /// let beam = Segment::new(DVec2::new(-1.0, 0.0), DVec2::new(1.0, 0.0));
+    /// assert_eq!(strand.part_within(&beam, 0.5), Some(SegmentPart { from: 1.5, to: 2.5 }));
+    /// ```
+    pub fn part_within(&self, other: &Segment, radius: f64) -> Option<SegmentPart> {
+        let length = self.length();
+        let direction = (self.end - self.start) / length;
+        if !direction.is_finite() {
+            return None;
+        }
+        let ray = Ray { origin: self.start, direction };
+        [ray.in_disc(other.start, radius), ray.in_disc(other.end, radius), ray.in_rectangle(other, radius)]
+            .into_iter()
+            .flatten()
+            .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+            .map(|(from, to)| SegmentPart { from: from.max(0.0), to: to.min(length) })
+            .filter(|part| part.from <= part.to)
     }
-    let ray = Ray { origin: segment.start, direction };
-    [ray.in_disc(other.start, radius), ray.in_disc(other.end, radius), ray.in_rectangle(other, radius)]
-        .into_iter()
-        .flatten()
-        .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
-        .map(|(from, to)| (from.max(0.0), to.min(length)))
-        .filter(|(from, to)| from <= to)
 }
 
 /// The line of a segment with unit direction; intervals on it are in mm from the origin.
@@ -68,24 +88,28 @@ mod tests {
         Segment::new(DVec2::from(a), DVec2::from(b))
     }
 
+    fn part(segment: &Segment, other: &Segment, radius: f64) -> Option<(f64, f64)> {
+        segment.part_within(other, radius).map(|part| (part.from, part.to))
+    }
+
     #[test]
     fn a_line_across_a_capsule() {
         let across = segment((0.0, -2.0), (0.0, 2.0));
-        assert_eq!(part_within(&across, &segment((-1.0, 0.0), (1.0, 0.0)), 0.5), Some((1.5, 2.5)));
-        assert_eq!(part_within(&across, &segment((0.3, 0.0), (5.0, 0.0)), 0.5), Some((1.6, 2.4)));
-        assert_eq!(part_within(&across, &segment((0.6, 0.0), (5.0, 0.0)), 0.5), None);
+        assert_eq!(part(&across, &segment((-1.0, 0.0), (1.0, 0.0)), 0.5), Some((1.5, 2.5)));
+        assert_eq!(part(&across, &segment((0.3, 0.0), (5.0, 0.0)), 0.5), Some((1.6, 2.4)));
+        assert_eq!(part(&across, &segment((0.6, 0.0), (5.0, 0.0)), 0.5), None);
     }
 
     #[test]
     fn parallel_at_the_very_radius_is_held() {
         let bar = segment((0.0, 0.0), (4.0, 0.0));
-        assert_eq!(part_within(&bar, &segment((1.0, 0.5), (3.0, 0.5)), 0.5), Some((1.0, 3.0)));
+        assert_eq!(part(&bar, &segment((1.0, 0.5), (3.0, 0.5)), 0.5), Some((1.0, 3.0)));
     }
 
     #[test]
     fn points_are_discs() {
         let bar = segment((0.0, 0.0), (4.0, 0.0));
-        assert_eq!(part_within(&bar, &segment((2.0, 3.0), (2.0, 3.0)), 5.0), Some((0.0, 4.0)));
-        assert_eq!(part_within(&segment((1.0, 1.0), (1.0, 1.0)), &bar, 5.0), None);
+        assert_eq!(part(&bar, &segment((2.0, 3.0), (2.0, 3.0)), 5.0), Some((0.0, 4.0)));
+        assert_eq!(part(&segment((1.0, 1.0), (1.0, 1.0)), &bar, 5.0), None);
     }
 }

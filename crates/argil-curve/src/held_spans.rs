@@ -1,6 +1,5 @@
 //! The stretches of a curve that lie near a set of segments, and the stretches between them.
 
-use crate::capsule::part_within;
 use crate::{ClosedCurve, SegmentIndex};
 
 /// Spans of arc length nearer than this are one span, mm. Two segments that meet at a vertex give two parts whose
@@ -63,8 +62,9 @@ pub fn held_spans(curve: &ClosedCurve, index: &SegmentIndex, across: f64) -> Vec
         let offset = curve.arc_of(k);
         parts.clear();
         index.for_each_near(segment, across, |_, other| {
-            parts
-                .extend(part_within(&segment, &other, across).map(|(from, to)| (offset + from, offset + to)));
+            parts.extend(
+                segment.part_within(&other, across).map(|part| (offset + part.from, offset + part.to)),
+            );
         });
         parts.sort_by(|a, b| a.0.total_cmp(&b.0));
         for &(from, to) in &parts {

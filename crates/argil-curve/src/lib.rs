@@ -9,6 +9,7 @@ mod segment;
 mod segment_index;
 mod self_crossings;
 
+pub use capsule::SegmentPart;
 pub use closed_curve::{ClosedCurve, NearestOnCurve, OnCurve};
 pub use error::CurveError;
 pub use glam::DVec2;
