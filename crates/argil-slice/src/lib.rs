@@ -1,1 +1,29 @@
-//! A mesh into closed outlines, wall loops and their containment tree, layer by layer.
+#![doc = include_str!("../README.md")]
+//!
+//! # How it is built
+//! A sweep over the triangles cuts the mesh at the middle of each layer and links the pieces along shared mesh
+//! edges; the contours are filled by the non-zero rule; each
+//! outline is inset for its walls, opened and simplified; the loops are rounded to the output grid and
+//! only then checked, since rounding is what breaks slivers. What cannot be printed as it is becomes a
+//! [`Loss`] with its layer and place. Polygons are `geo-types`, paths `glam::DVec2`.
+//!
+//! Lengths are millimetres, z is up; loops round solid run counter-clockwise, round holes clockwise.
+#![forbid(unsafe_code)]
+
+mod chain;
+mod containment;
+mod error;
+mod layer;
+mod region;
+mod section;
+mod settings;
+mod simplification;
+mod slicing;
+mod soundness;
+mod wall;
+
+pub use argil_mesh as mesh;
+pub use error::SliceError;
+pub use layer::{Layer, Loss, WallLoop, outer_walls};
+pub use settings::SliceSettings;
+pub use slicing::slice;

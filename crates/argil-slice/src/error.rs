@@ -1,0 +1,52 @@
+use thiserror::Error;
+
+/// Why a mesh cannot be sliced.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SliceError {
+    /// A setting that must be a positive finite length is not.
+    #[error("{setting} must be a positive length, not {value}")]
+    Setting {
+        /// The name of the field in [`SliceSettings`](crate::SliceSettings).
+        setting: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// No wall was asked for, so there would be no path.
+    #[error("at least one wall is needed")]
+    NoWalls,
+    /// The output grid is too coarse for the bead: loops could not be kept apart on it.
+    #[error("an output grid of {grid} mm is too coarse for a bead of {width} mm (at most {limit} mm)")]
+    CoarseGrid {
+        /// The grid in millimetres.
+        grid: f64,
+        /// The bead width in millimetres.
+        width: f64,
+        /// The coarsest grid for this width.
+        limit: f64,
+    },
+    /// The mesh does not reach the middle of the first layer.
+    #[error("the mesh is {height} mm high, less than half a layer of {layer_height} mm")]
+    ThinnerThanALayer {
+        /// Height of the mesh in millimetres.
+        height: f64,
+        /// The layer height in millimetres.
+        layer_height: f64,
+    },
+    /// More layers than anything that is printed has: the unit or the scale is wrong.
+    #[error("{layers} layers are more than {limit}: is the mesh in millimetres?")]
+    TooManyLayers {
+        /// How many there would be.
+        layers: f64,
+        /// How many are allowed.
+        limit: usize,
+    },
+    /// A mesh so wide that the polygon kernel's 30-bit grid becomes coarser than the output grid.
+    #[error("the mesh is {extent} mm wide, more than {limit} mm: is it in millimetres?")]
+    TooWide {
+        /// The larger extent in x or y, in millimetres.
+        extent: f64,
+        /// The largest extent for this output grid.
+        limit: f64,
+    },
+}

@@ -1,0 +1,144 @@
+use geo_types::{Coord, LineString, MultiPolygon, Polygon};
+use glam::DVec2;
+
+/// One layer: the cut through the solid and the wall paths inside it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layer {
+    /// Number of the layer, 0 at the bottom.
+    pub index: usize,
+    /// Height of the cut in millimetres: the middle of the layer.
+    pub cut_z: f64,
+    /// Height in millimetres at which the nozzle prints it: the top of the layer.
+    pub print_z: f64,
+    /// The region that is solid at `cut_z`: disjoint polygons, exteriors counter-clockwise.
+    pub outline: MultiPolygon<f64>,
+    /// The wall loops: simple, pairwise disjoint, on the output grid.
+    pub walls: Vec<WallLoop>,
+    /// What of the outline is not, or not quite, printed by these walls.
+    pub losses: Vec<Loss>,
+}
+
+/// One closed wall path.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WallLoop {
+    /// The vertices in millimetres, on the output grid, without repeating the first at the end.
+    /// Counter-clockwise where the loop runs round solid, clockwise (`hole`) where it runs
+    /// round a hole.
+    pub points: Vec<DVec2>,
+    /// The smallest loop that contains this one, as an index into [`Layer::walls`].
+    pub parent: Option<usize>,
+    /// How many loops contain this one. With one wall its parity is `hole`; further walls of
+    /// the same outline nest inside without being holes.
+    pub depth: usize,
+    /// Which wall of its outline this is: its path runs (`wall` + ½) w inside.
+    pub wall: usize,
+    /// Whether the loop bounds a hole of the solid.
+    pub hole: bool,
+    /// Whether the outline is too thin for a bead, so that the loop runs nearer to it than w/2.
+    pub thin: bool,
+}
+
+/// Something of the model that the walls of a layer do not print as it is.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Loss {
+    /// The cut through the mesh has an end: the mesh has a hole wider than the allowed gap here.
+    OpenOutline {
+        /// The layer.
+        layer: usize,
+        /// One end of the gap.
+        at: DVec2,
+        /// Length in millimetres of the piece of outline that is left out.
+        length: f64,
+        /// Distance in millimetres between its ends.
+        gap: f64,
+    },
+    /// An outline is thinner than a bead: its wall runs at less than w/2 inside and prints
+    /// wider than the model.
+    Thin {
+        /// The layer.
+        layer: usize,
+        /// A point inside the outline.
+        at: DVec2,
+        /// The outline's area in square millimetres.
+        area: f64,
+        /// How far inside the outline the wall runs, in millimetres.
+        inset: f64,
+    },
+    /// An outline is so thin or small that it gets no wall at all.
+    Vanished {
+        /// The layer.
+        layer: usize,
+        /// A point inside the outline.
+        at: DVec2,
+        /// The outline's area in square millimetres.
+        area: f64,
+    },
+    /// Part of an outline is thinner than a bead and gets no wall, while the rest does.
+    Branch {
+        /// The layer.
+        layer: usize,
+        /// A point inside the part.
+        at: DVec2,
+        /// The part's area in square millimetres.
+        area: f64,
+    },
+    /// Wall loops that would touch themselves or others after rounding, and were left out.
+    Unsound {
+        /// The layer.
+        layer: usize,
+        /// A point on the loop.
+        at: DVec2,
+        /// Length of the loops in millimetres.
+        length: f64,
+    },
+}
+
+impl Loss {
+    /// The layer that it concerns.
+    #[must_use]
+    pub fn layer(&self) -> usize {
+        match *self {
+            Self::OpenOutline { layer, .. }
+            | Self::Thin { layer, .. }
+            | Self::Vanished { layer, .. }
+            | Self::Branch { layer, .. }
+            | Self::Unsound { layer, .. } => layer,
+        }
+    }
+
+    /// Where it is, in millimetres.
+    #[must_use]
+    pub fn at(&self) -> DVec2 {
+        match *self {
+            Self::OpenOutline { at, .. }
+            | Self::Thin { at, .. }
+            | Self::Vanished { at, .. }
+            | Self::Branch { at, .. }
+            | Self::Unsound { at, .. } => at,
+        }
+    }
+}
+
+/// The regions that the outermost wall loops enclose, holes filled: what the safeguard dilates.
+///
+/// # Example
+/// ```
+/// use argil_slice::{outer_walls, slice, SliceSettings};
+/// # let corners = (0..8).map(|k| [20.0 * f64::from(k & 1), 20.0 * f64::from(k >> 1 & 1), 4.0 * f64::from(k >> 2)]).collect();
+/// # let sides = vec![[0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4], [2, 6, 3], [3, 6, 7], [0, 4, 2], [2, 4, 6], [1, 3, 5], [3, 7, 5]];
+/// # let mesh = argil_slice::mesh::Mesh::new(corners, sides).unwrap();
+/// let layers = slice(&mesh, &SliceSettings::default())?; // a box of 20 x 20 x 4 mm
+/// let filled = outer_walls(&layers[0]);
+/// assert_eq!(filled.0.len(), 1);
+/// assert!(filled.0[0].interiors().is_empty());
+/// # Ok::<(), argil_slice::SliceError>(())
+/// ```
+#[must_use]
+pub fn outer_walls(layer: &Layer) -> MultiPolygon<f64> {
+    let filled = layer.walls.iter().filter(|wall| wall.parent.is_none()).map(|wall| {
+        let ring: Vec<Coord<f64>> = wall.points.iter().map(|p| Coord { x: p.x, y: p.y }).collect();
+        Polygon::new(LineString(ring), Vec::new())
+    });
+    MultiPolygon(filled.collect())
+}

@@ -1,0 +1,75 @@
+//! The few polygon operations the slicer needs, on top of `geo`.
+
+use geo::bool_ops::FillRule;
+use geo::buffer::{BufferStyle, LineJoin};
+use geo::{Area, BooleanOps, Buffer, OpType};
+use geo_types::{Coord, LineString, MultiPolygon, Polygon};
+use glam::DVec2;
+
+/// The region round which closed contours wind any number of times but none.
+///
+/// So bodies that overlap are one, cavities stay, and a mesh that is inside out (it winds −1 times) is as good as
+/// another. Pieces of less than `least_area` are dropped.
+pub(crate) fn wound_region(contours: Vec<Vec<DVec2>>, least_area: f64) -> MultiPolygon<f64> {
+    let rings = contours.into_iter().filter(|ring| ring.len() >= 3).map(|ring| {
+        let coords = ring.into_iter().map(|p| Coord { x: p.x, y: p.y }).collect();
+        Polygon::new(LineString(coords), Vec::new())
+    });
+    let rings = MultiPolygon(rings.collect());
+    let mut region =
+        rings.boolean_op_with_fill_rule(&MultiPolygon(Vec::new()), OpType::Union, FillRule::NonZero);
+    region.0.retain(|polygon| polygon.unsigned_area() >= least_area);
+    region
+}
+
+/// All points of the region farther than `distance` from its boundary, up to `chord_error`: joins
+/// round concave corners are arcs of chords.
+pub(crate) fn inset(region: &impl Buffer<Scalar = f64>, distance: f64, chord_error: f64) -> MultiPolygon<f64> {
+    offset(region, -distance, arc_step(distance, chord_error))
+}
+
+/// All points within `distance` of the region, short by at most `chord_error`.
+pub(crate) fn dilation(region: &impl Buffer<Scalar = f64>, distance: f64, chord_error: f64) -> MultiPolygon<f64> {
+    offset(region, distance, arc_step(distance, chord_error))
+}
+
+/// Grows by moving the sides outwards and letting them meet in sharp corners, down to 60°; this
+/// undoes a small inset without rounding the corners off.
+pub(crate) fn mitred_dilation(region: &MultiPolygon<f64>, distance: f64) -> MultiPolygon<f64> {
+    offset(region, distance, LineJoin::Miter(60_f64.to_radians()))
+}
+
+fn offset(region: &impl Buffer<Scalar = f64>, distance: f64, join: LineJoin<f64>) -> MultiPolygon<f64> {
+    region.buffer_with_style(BufferStyle::new(distance).line_join(join))
+}
+
+/// The kernel divides a turn by this angle and rounds the count down, so that a chord spans
+/// less than twice it: its sagitta is at most r (1 − cos step).
+fn arc_step(radius: f64, chord_error: f64) -> LineJoin<f64> {
+    LineJoin::Round((1.0 - (chord_error / radius).min(0.3)).acos())
+}
+
+/// The vertices of a ring without the repeated first.
+pub(crate) fn ring_points(ring: &LineString<f64>) -> Vec<DVec2> {
+    let mut points: Vec<DVec2> = ring.0.iter().map(|c| DVec2::new(c.x, c.y)).collect();
+    if points.len() > 1 && points.first() == points.last() {
+        points.pop();
+    }
+    points
+}
+
+/// Twice the signed area would do for a sign, but the loops are compared by area as well.
+pub(crate) fn signed_area(points: &[DVec2]) -> f64 {
+    let Some(&origin) = points.first() else { return 0.0 };
+    let fan = points.windows(2).map(|pair| (pair[0] - origin).perp_dot(pair[1] - origin));
+    0.5 * fan.sum::<f64>()
+}
+
+/// Length of the closed curve through these points.
+pub(crate) fn perimeter(points: &[DVec2]) -> f64 {
+    let closing = match (points.first(), points.last()) {
+        (Some(first), Some(last)) => first.distance(*last),
+        _ => 0.0,
+    };
+    points.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>() + closing
+}

@@ -1,0 +1,89 @@
+use crate::chain::{Linker, close_gaps};
+use crate::layer::{Layer, Loss};
+use crate::region::wound_region;
+use crate::section::Sweep;
+use crate::settings::MOST_LAYERS;
+use crate::wall::walls;
+use crate::{SliceError, SliceSettings};
+use argil_mesh::Mesh;
+
+/// Outlines smaller than this, in square millimetres, are rounding errors of the cut.
+const LEAST_AREA: f64 = 1e-6;
+
+/// Cuts a mesh into layers and lays the wall paths into each outline (DESIGN 3.1 of the method; Sec. 3.1
+/// of the paper takes both as given).
+///
+/// Layer n is cut at the height (n + ½) h above the lowest point of the mesh and printed at
+/// (n + 1) h. Layers are returned bottom first, also empty ones in
+/// the middle, where the model vanishes for a while. Neighbouring triangles that are wound against each
+/// other are turned over first.
+///
+/// # Errors
+/// [`SliceError`] for settings that are no lengths, for a mesh that does not reach the middle of the first
+/// layer, for more than 100,000 layers, and for a mesh too wide for its output grid. Flaws of
+/// the mesh are no errors: they are in [`Layer::losses`].
+///
+/// # Complexity
+/// O(triangles + crossings of planes with triangles) for the cuts; the polygon operations on each layer
+/// are near linear in its vertices.
+///
+/// # Example
+/// ```
+/// use argil_slice::{mesh::Mesh, slice, SliceError, SliceSettings};
+/// let flat = Mesh::new(vec![[0.0; 3], [9.0, 0.0, 0.0], [0.0, 9.0, 0.1]], vec![[0, 1, 2]]).unwrap();
+/// assert_eq!(
+///     slice(&flat, &SliceSettings::default()),
+///     Err(SliceError::ThinnerThanALayer { height: 0.1, layer_height: 0.5 }),
+/// );
+/// ```
+pub fn slice(mesh: &Mesh, settings: &SliceSettings) -> Result<Vec<Layer>, SliceError> {
+    settings.check()?;
+    let bounds = mesh.bounds();
+    let [wide, deep, height] = bounds.size();
+    check_width(wide.max(deep), settings.grid)?;
+    let layers = layer_count(height, settings.layer_height)?;
+    let bottom = bounds.min[2];
+    let planes: Vec<f64> = (0..layers).map(|n| bottom + (n as f64 + 0.5) * settings.layer_height).collect();
+
+    let mesh = mesh.oriented();
+    let edges = mesh.edges();
+    let mut sweep = Sweep::new(&mesh, &edges, &planes);
+    let mut linker = Linker::new(edges.ends().len());
+    let mut cuts = Vec::new();
+    let mut result = Vec::with_capacity(layers);
+    for (index, &cut_z) in planes.iter().enumerate() {
+        sweep.advance(&mut cuts);
+        let (mut contours, mut open) = linker.link(&cuts);
+        contours.append(&mut close_gaps(&mut open, settings.gap * settings.width));
+        let mut losses: Vec<Loss> = open
+            .iter()
+            .filter_map(|chain| {
+                let at = *chain.points.last()?;
+                Some(Loss::OpenOutline { layer: index, at, length: chain.length(), gap: chain.gap() })
+            })
+            .collect();
+        let outline = wound_region(contours, LEAST_AREA);
+        let (walls, mut lost) = walls(index, &outline, settings);
+        losses.append(&mut lost);
+        let print_z = bottom + (index as f64 + 1.0) * settings.layer_height;
+        result.push(Layer { index, cut_z, print_z, outline, walls, losses });
+    }
+    Ok(result)
+}
+
+fn layer_count(height: f64, layer_height: f64) -> Result<usize, SliceError> {
+    let layers = (height / layer_height + 0.5).floor();
+    if layers < 1.0 {
+        return Err(SliceError::ThinnerThanALayer { height, layer_height });
+    }
+    if layers > MOST_LAYERS as f64 {
+        return Err(SliceError::TooManyLayers { layers, limit: MOST_LAYERS });
+    }
+    Ok(layers as usize)
+}
+
+/// The polygon kernel computes on 30-bit integers over the box of what it is given; its step must be well below the output's.
+fn check_width(extent: f64, grid: f64) -> Result<(), SliceError> {
+    let limit = 0.25 * grid * f64::from(1 << 29);
+    if extent > limit { Err(SliceError::TooWide { extent, limit }) } else { Ok(()) }
+}

@@ -1,0 +1,216 @@
+use crate::containment::nest;
+use crate::layer::{Loss, WallLoop};
+use crate::region::{self, perimeter, ring_points, signed_area};
+use crate::simplification::simplified;
+use crate::soundness::unsound;
+use crate::SliceSettings;
+use geo::{Area, BooleanOps, Centroid, InteriorPoint};
+use geo_types::{MultiPolygon, Polygon};
+use glam::DVec2;
+
+/// How far arcs may cut their corners, in w: a hundredth of what the eye sees on clay, and
+/// arcs still have few enough chords to be simplified quickly.
+const CHORD: f64 = 0.003;
+
+/// How an inset is cleaned, in w: `opening` is the radius of the disc that must fit everywhere, `tolerance` what
+/// the simplification may move the curve by.
+///
+/// Slivers of a thousandth of a millimetre cross themselves once they are rounded; discs of 0.03 mm
+/// (0.02 w) leave room for the simplification on both sides and change 0.04 % of the wall. Where a loop still
+/// touches itself it is opened more; there is no fourth try.
+const ATTEMPTS: [Cleaning; 3] = [
+    Cleaning { opening: 0.02, tolerance: 0.006 },
+    Cleaning { opening: 0.04, tolerance: 0.003 },
+    Cleaning { opening: 0.08, tolerance: 0.003 },
+];
+
+#[derive(Clone, Copy)]
+struct Cleaning {
+    opening: f64,
+    tolerance: f64,
+}
+
+/// Insets in w/2 that are tried in turn on an outline in which no bead fits: the first that
+/// exists squeezes the clay out least.
+const THIN_INSETS: [f64; 6] = [0.8, 0.6, 0.45, 0.3, 0.2, 0.1];
+
+/// A thin loop is printed if it is at least this long and this wide, in w: less is a blob.
+const THIN_LENGTH: f64 = 0.8;
+const THIN_WIDTH: f64 = 0.08;
+
+/// A part of an outline that no bead reaches is reported from this area on, in w²: rounded
+/// corners are smaller (0.05 w² at a right angle).
+const BRANCH_AREA: f64 = 0.25;
+
+/// What the bead may fall short of an outline by without it being a lost branch, in w.
+const BRANCH_SLACK: f64 = 1.0 / 30.0;
+
+/// The walls of a layer's outline, and what of it they do not print.
+pub(crate) fn walls(layer: usize, outline: &MultiPolygon<f64>, settings: &SliceSettings) -> (Vec<WallLoop>, Vec<Loss>) {
+    let mut losses = Vec::new();
+    let mut pieces: Vec<Piece<'_>> = Vec::new();
+    for polygon in outline {
+        let found = pieces.len();
+        for wall in 0..settings.walls {
+            let distance = (wall as f64 + 0.5) * settings.width;
+            let before = pieces.len();
+            pieces.extend(Source { polygon, distance, wall, thin: false }.pieces(ATTEMPTS[0], settings));
+            if pieces.len() == before {
+                break;
+            }
+        }
+        if pieces.len() == found {
+            let thin = thin_pieces(polygon, settings);
+            let (at, area) = (inner_point(polygon), polygon.unsigned_area());
+            losses.push(match thin.first() {
+                Some(piece) => Loss::Thin { layer, at, area, inset: piece.source.distance },
+                None => Loss::Vanished { layer, at, area },
+            });
+            pieces.extend(thin);
+        } else {
+            let first: Vec<Polygon<f64>> =
+                pieces[found..].iter().filter(|piece| piece.source.wall == 0).map(|piece| piece.region.clone()).collect();
+            losses.extend(lost_branches(layer, polygon, MultiPolygon(first), settings));
+        }
+    }
+    let pieces = sound_pieces(pieces, layer, settings, &mut losses);
+    let mut walls: Vec<WallLoop> = pieces.into_iter().flat_map(Piece::into_loops).collect();
+    nest(&mut walls);
+    (walls, losses)
+}
+
+/// Which inset of which outline a piece belongs to.
+#[derive(Clone, Copy)]
+struct Source<'a> {
+    polygon: &'a Polygon<f64>,
+    distance: f64,
+    wall: usize,
+    thin: bool,
+}
+
+/// One connected piece of an inset, with the loops that print its rings.
+struct Piece<'a> {
+    source: Source<'a>,
+    region: Polygon<f64>,
+    /// The exterior first.
+    rings: Vec<Vec<DVec2>>,
+}
+
+impl<'a> Source<'a> {
+    fn pieces(self, cleaning: Cleaning, settings: &SliceSettings) -> Vec<Piece<'a>> {
+        let width = settings.width;
+        let opening = cleaning.opening * width;
+        let shrunk = region::inset(self.polygon, self.distance + opening, CHORD * width);
+        if shrunk.0.is_empty() {
+            return Vec::new();
+        }
+        let opened = region::mitred_dilation(&shrunk, opening);
+        opened.into_iter().filter_map(|region| self.piece(region, cleaning, settings)).collect()
+    }
+
+    fn piece(self, region: Polygon<f64>, cleaning: Cleaning, settings: &SliceSettings) -> Option<Piece<'a>> {
+        // Sides of a thousandth of a millimetre have no direction left after rounding.
+        let least_side = 12.0 * settings.grid;
+        let tolerance = cleaning.tolerance * settings.width;
+        let exterior = std::iter::once(region.exterior());
+        let rings: Vec<Vec<DVec2>> = exterior
+            .chain(region.interiors())
+            .map(|ring| simplified(&ring_points(ring), tolerance, settings.grid, least_side))
+            .collect();
+        let kept = rings.first().is_some_and(|ring| ring.len() >= 3);
+        kept.then_some(Piece { source: self, region, rings })
+    }
+}
+
+impl Piece<'_> {
+    fn into_loops(self) -> impl Iterator<Item = WallLoop> {
+        let Source { wall, thin, .. } = self.source;
+        self.rings.into_iter().enumerate().map(move |(number, mut points)| {
+            let hole = number > 0;
+            if (signed_area(&points) < 0.0) != hole {
+                points.reverse();
+            }
+            WallLoop { points, parent: None, depth: 0, wall, hole, thin }
+        })
+    }
+}
+
+/// The pieces of the largest inset, among a few, that leaves something worth printing.
+fn thin_pieces<'a>(polygon: &'a Polygon<f64>, settings: &SliceSettings) -> Vec<Piece<'a>> {
+    let cleaning = Cleaning { opening: 0.5 * THIN_WIDTH, ..ATTEMPTS[0] };
+    for factor in THIN_INSETS {
+        let source = Source { polygon, distance: factor * 0.5 * settings.width, wall: 0, thin: true };
+        let mut pieces = source.pieces(cleaning, settings);
+        pieces.retain(|piece| piece.rings.first().is_some_and(|ring| perimeter(ring) >= THIN_LENGTH * settings.width));
+        if !pieces.is_empty() {
+            return pieces;
+        }
+    }
+    Vec::new()
+}
+
+/// The parts of an outline that lie farther from the inset than the bead of the first wall reaches.
+fn lost_branches(layer: usize, polygon: &Polygon<f64>, inset: MultiPolygon<f64>, settings: &SliceSettings) -> Vec<Loss> {
+    let width = settings.width;
+    let reach = (0.5 + BRANCH_SLACK) * width;
+    let covered = region::dilation(&inset, reach, 0.5 * BRANCH_SLACK * width);
+    let missed = MultiPolygon(vec![polygon.clone()]).difference(&covered);
+    missed
+        .iter()
+        .map(|part| (part, part.unsigned_area()))
+        .filter(|&(_, area)| area > BRANCH_AREA * width * width)
+        .map(|(part, area)| Loss::Branch { layer, at: inner_point(part), area })
+        .collect()
+}
+
+/// Replaces the pieces whose loops touch themselves or others by better cleaned ones, and drops those that
+/// stay unsound.
+fn sound_pieces<'a>(
+    mut pieces: Vec<Piece<'a>>,
+    layer: usize,
+    settings: &SliceSettings,
+    losses: &mut Vec<Loss>,
+) -> Vec<Piece<'a>> {
+    for cleaning in ATTEMPTS.iter().skip(1).map(Some).chain([None]) {
+        let faulty = faulty_pieces(&pieces, settings.grid);
+        if !faulty.contains(&true) {
+            break;
+        }
+        let mut sound = Vec::with_capacity(pieces.len());
+        for (piece, is_faulty) in pieces.into_iter().zip(faulty) {
+            match cleaning {
+                _ if !is_faulty => sound.push(piece),
+                Some(cleaning) => sound.extend(piece.cleaned(*cleaning, settings)),
+                None => losses.push(Loss::Unsound {
+                    layer,
+                    at: piece.rings.first().and_then(|ring| ring.first()).copied().unwrap_or_default(),
+                    length: piece.rings.iter().map(|ring| perimeter(ring)).sum(),
+                }),
+            }
+        }
+        pieces = sound;
+    }
+    pieces
+}
+
+impl<'a> Piece<'a> {
+    /// The same piece opened further; it may fall apart.
+    fn cleaned(&self, cleaning: Cleaning, settings: &SliceSettings) -> Vec<Piece<'a>> {
+        let opening = cleaning.opening * settings.width;
+        let shrunk = region::inset(&self.region, opening, CHORD * settings.width);
+        let opened = region::mitred_dilation(&shrunk, opening);
+        opened.into_iter().filter_map(|region| self.source.piece(region, cleaning, settings)).collect()
+    }
+}
+
+fn faulty_pieces(pieces: &[Piece<'_>], grid: f64) -> Vec<bool> {
+    let rings: Vec<Vec<DVec2>> = pieces.iter().flat_map(|piece| piece.rings.iter().cloned()).collect();
+    let mut faulty = unsound(&rings, grid).into_iter();
+    pieces.iter().map(|piece| faulty.by_ref().take(piece.rings.len()).fold(false, |any, is| any | is)).collect()
+}
+
+/// A point inside the polygon, or at least near it where it has no inside.
+fn inner_point(polygon: &Polygon<f64>) -> DVec2 {
+    let point = polygon.interior_point().or_else(|| polygon.centroid());
+    point.map_or(DVec2::ZERO, |p| DVec2::new(p.x(), p.y()))
+}
