@@ -1,0 +1,81 @@
+//! What a g-code file makes a machine do.
+
+/// A straight move, extruding or not.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Move {
+    /// Where it begins, mm.
+    pub from: [f64; 3],
+    /// Where it ends, mm.
+    pub to: [f64; 3],
+    /// What it pushes out, in the file's unit of E; negative for a retraction.
+    pub extruded: f64,
+    /// The layer that the file's comments say it belongs to; `None` before the first such comment.
+    pub layer: Option<i64>,
+    /// Which of [`Program::kinds`] the file's comments say it is; `None` before the first such comment.
+    pub kind: Option<usize>,
+    /// The line it stands on, counted from 1.
+    pub line: usize,
+}
+
+impl Move {
+    /// Length in the plane, mm.
+    pub fn planar_length(&self) -> f64 {
+        (self.to[0] - self.from[0]).hypot(self.to[1] - self.from[1])
+    }
+}
+
+/// What is wrong with a line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Fault {
+    /// A number too large for arithmetic, or a position that became one.
+    NotFinite,
+    /// An arc whose centre or radius does not fit its ends; it is read as a straight move.
+    BadArc,
+    /// Coordinates in inches (G20), which are read as if they were millimetres.
+    Inches,
+}
+
+/// A line that could not be read as it was meant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BadLine {
+    /// Its number, counted from 1.
+    pub line: usize,
+    /// What is wrong with it.
+    pub fault: Fault,
+}
+
+/// The moves of a g-code file, with what its comments say about them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Program {
+    /// Every move, in order; each begins where the one before ended, but for G92.
+    pub moves: Vec<Move>,
+    /// The words after `;TYPE:`, in the order in which they first occur.
+    pub kinds: Vec<String>,
+    /// Lines that could not be read as they were meant. A sound file has none.
+    pub bad_lines: Vec<BadLine>,
+}
+
+impl Program {
+    /// The word that the file gives a move, if any.
+    pub fn kind_of(&self, step: &Move) -> Option<&str> {
+        self.kinds.get(step.kind?).map(String::as_str)
+    }
+
+    /// Sum of what is pushed out, in the file's unit of E; retractions count against it.
+    pub fn extruded(&self) -> f64 {
+        self.moves.iter().map(|step| step.extruded).sum()
+    }
+
+    /// The moves from the first to the last that extrude while moving in the plane: what is left when approach,
+    /// priming on the spot and departure are cut off.
+    pub fn strand_moves(&self) -> &[Move] {
+        let lays = |step: &Move| step.extruded > 1e-9 && step.planar_length() > 1e-6;
+        let first = self.moves.iter().position(lays);
+        let last = self.moves.iter().rposition(lays);
+        match (first, last) {
+            (Some(first), Some(last)) => &self.moves[first..=last],
+            _ => &[],
+        }
+    }
+}

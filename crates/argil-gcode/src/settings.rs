@@ -1,0 +1,199 @@
+//! What the writer must be told about machine, paste and viewer.
+
+use argil_strand::{BeadShape, Role};
+
+use crate::GcodeError;
+
+/// Volume in mm³ of one mm of filament of 1.75 mm, the unit of E that most firmwares and viewers assume.
+///
+/// PrusaSlicer's viewer derives bead widths from E with this diameter, and the clay printers of Eazao count so.
+pub const FILAMENT_1_75: f64 = std::f64::consts::PI * 1.75 * 1.75 / 4.0;
+
+/// The word that a viewer knows for each role, written after `;TYPE:`.
+///
+/// No vocabulary is known to all viewers: PrusaSlicer colours its own words only, Cura logs foreign ones and shows the
+/// type before. The words are therefore data, with the three common vocabularies at hand. The words of roles other
+/// than fill keep clear of `fill`, `skin`, `top`, `bottom`, `floor`, `roof`, `skirt`, `prime` and `purge`, which tools
+/// that measure g-code read as solid surfaces or as extras beside the part.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RoleNames {
+    /// For [`Role::Wall`].
+    pub wall: String,
+    /// For [`Role::Support`].
+    pub support: String,
+    /// For [`Role::Connection`]: drawn apart from support wherever the viewer has a second support colour.
+    pub connection: String,
+    /// For [`Role::Seam`].
+    pub seam: String,
+    /// For [`Role::Fill`].
+    pub fill: String,
+}
+
+impl Default for RoleNames {
+    /// [`RoleNames::prusa_slicer`]: its viewer draws beads of clay at their width, Cura's draws any bead wider
+    /// than 1.2 mm as a thread of 0.35 mm.
+    fn default() -> Self {
+        Self::prusa_slicer()
+    }
+}
+
+impl RoleNames {
+    fn of_words([wall, support, connection, seam, fill]: [&str; 5]) -> Self {
+        let own = str::to_owned;
+        Self {
+            wall: own(wall),
+            support: own(support),
+            connection: own(connection),
+            seam: own(seam),
+            fill: own(fill),
+        }
+    }
+
+    /// The words of PrusaSlicer's g-code viewer.
+    pub fn prusa_slicer() -> Self {
+        let words = ["External perimeter", "Support material", "Support material interface", "Custom"];
+        Self::of_words([words[0], words[1], words[2], words[3], "Solid infill"])
+    }
+
+    /// The words of Cura's viewer, which many web viewers understand too.
+    pub fn cura() -> Self {
+        Self::of_words(["WALL-OUTER", "SUPPORT", "SUPPORT-INTERFACE", "WALL-INNER", "FILL"])
+    }
+
+    /// The words of OrcaSlicer's g-code viewer.
+    pub fn orca_slicer() -> Self {
+        Self::of_words(["Outer wall", "Support", "Support interface", "Custom", "Internal solid infill"])
+    }
+
+    /// The word for a role.
+    pub fn name(&self, role: Role) -> &str {
+        match role {
+            Role::Wall => &self.wall,
+            Role::Connection => &self.connection,
+            Role::Seam => &self.seam,
+            Role::Fill => &self.fill,
+            // Roles added later are not part of the model until they are given a word of their own.
+            _ => &self.support,
+        }
+    }
+
+    /// The role that a word stands for, whatever its case; `None` for words of another vocabulary.
+    ///
+    /// ```
+    /// use argil_gcode::RoleNames;
+    /// use argil_strand::Role;
+    /// assert_eq!(RoleNames::cura().role("wall-outer"), Some(Role::Wall));
+    /// assert_eq!(RoleNames::cura().role("Brim"), None);
+    /// ```
+    pub fn role(&self, word: &str) -> Option<Role> {
+        Role::ALL.into_iter().find(|&role| self.name(role).eq_ignore_ascii_case(word))
+    }
+}
+
+/// How a strand is written as g-code.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GcodeSettings {
+    /// Decimals of coordinates in mm. Default 4, the grid of 1e-4 mm on which plans are checked: with fewer, the
+    /// written path is not the checked one. At most 6.
+    pub decimals: u8,
+    /// Decimals of E. `None`, the default, takes 5 or as many as one grid step of the thinnest bead needs to
+    /// extrude (at most 9): machines whose E counts mm of a wide plunger need more. With fewer than needed, points
+    /// are passed over until E is more than nothing.
+    pub e_decimals: Option<u8>,
+    /// Each E is the amount of its own move (M83), the default. Otherwise E is counted up through each layer (M82) and set
+    /// back to 0 between layers, since firmware keeps it in single precision.
+    pub relative_e: bool,
+    /// Paste in mm³ that one unit of E pushes out. Default [`FILAMENT_1_75`]. Machines differ: 6.38 for a filament
+    /// of 2.85 mm, 1 under volumetric E, the plunger's cross-section where E is its travel.
+    pub mm3_per_e: f64,
+    /// Cross-section of a bead, for E. The default is rounded; the full rectangle lays 8 % more at 1.5 mm × 0.5 mm.
+    pub bead: BeadShape,
+    /// Speed while extruding, mm/s. Default 25, the middle of what clay printers' makers give (15 to 40).
+    pub feed: f64,
+    /// Speed on the lowest layer, mm/s. Default 15: it must stick to the bed, and makers give 10 to 20.
+    pub first_layer_feed: f64,
+    /// Speed before the first and after the last extrusion, mm/s. Default 25.
+    pub approach_feed: f64,
+    /// How far above the first point the nozzle comes in, and above the last it leaves, mm. Default 5.
+    pub lift: f64,
+    /// What is said to have made the file. Default: the name and version of argil. Some viewers change their reading
+    /// when they find their own name here.
+    pub generator: String,
+    /// Lines `; key = value` at the top, in this order: the settings that the part was planned with.
+    pub header: Vec<(String, String)>,
+    /// The vocabulary of `;TYPE:` comments.
+    pub names: RoleNames,
+    /// Machine code before everything else, verbatim: homing, priming, M302 P1 where firmware refuses to extrude
+    /// cold (not written unasked: a machine with a heated nozzle would grind its filament). Default empty. The
+    /// writer sets units and modes after it, so it need not.
+    pub start: String,
+    /// Machine code after the final lift, verbatim. Default empty.
+    pub end: String,
+}
+
+impl Default for GcodeSettings {
+    fn default() -> Self {
+        Self {
+            decimals: 4,
+            e_decimals: None,
+            relative_e: true,
+            mm3_per_e: FILAMENT_1_75,
+            bead: BeadShape::Rounded,
+            feed: 25.0,
+            first_layer_feed: 15.0,
+            approach_feed: 25.0,
+            lift: 5.0,
+            generator: format!("argil {}", env!("CARGO_PKG_VERSION")),
+            header: Vec::new(),
+            names: RoleNames::default(),
+            start: String::new(),
+            end: String::new(),
+        }
+    }
+}
+
+impl GcodeSettings {
+    /// Refuses numbers that cannot be written or would not extrude, and comments that would be read as others.
+    pub(crate) fn check(&self) -> Result<(), GcodeError> {
+        let within = |name, value: f64, low: f64, high: f64, must_be| {
+            let fits = value >= low && value <= high;
+            if fits { Ok(()) } else { Err(GcodeError::Setting { name, value, must_be }) }
+        };
+        within("decimals", f64::from(self.decimals), 0.0, 6.0, "at most 6")?;
+        within("e_decimals", f64::from(self.e_decimals.unwrap_or(5)), 0.0, 9.0, "at most 9")?;
+        within("mm3_per_e", self.mm3_per_e, 1e-6, 1e6, "between 1e-6 and 1e6 mm³")?;
+        within("lift", self.lift, 0.0, 1e6, "between 0 and 1e6 mm")?;
+        for (name, value) in [
+            ("feed", self.feed),
+            ("first_layer_feed", self.first_layer_feed),
+            ("approach_feed", self.approach_feed),
+        ] {
+            within(name, value, 1e-3, 1e6, "between 0.001 and 1e6 mm/s")?;
+        }
+        for (key, value) in &self.header {
+            check_comment(key)?;
+            check_comment(value)?;
+            let plain = |c: char| c.is_ascii_alphanumeric() || " _-.[]".contains(c);
+            if key.trim().is_empty() || !key.chars().all(plain) {
+                let why = "a key is made of letters, digits, blanks and _ - . [ ]";
+                return Err(GcodeError::Comment { text: key.clone(), why });
+            }
+            if key.trim().to_ascii_uppercase().starts_with("LAYER_CHANGE") {
+                return Err(GcodeError::Comment {
+                    text: key.clone(),
+                    why: "it would be read as a new layer",
+                });
+            }
+        }
+        check_comment(&self.generator)?;
+        Role::ALL.into_iter().try_for_each(|role| check_comment(self.names.name(role)))
+    }
+}
+
+/// A comment ends with its line, so text with line ends would go on as code.
+fn check_comment(text: &str) -> Result<(), GcodeError> {
+    if text.chars().any(char::is_control) {
+        return Err(GcodeError::Comment { text: text.to_owned(), why: "it holds a control character" });
+    }
+    Ok(())
+}

@@ -1,0 +1,245 @@
+//! What is written is what was planned, what is read is what was written, and no text stops the reader.
+#![allow(clippy::unwrap_used)]
+
+use argil_gcode::{Fault, GcodeError, GcodeSettings, RoleNames, read_gcode, write_gcode};
+use argil_strand::{BeadShape, DVec2, Move, Role, Strand, StrandLayer};
+use proptest::prelude::*;
+
+const ROLES: [Role; 4] = [Role::Wall, Role::Support, Role::Connection, Role::Fill];
+
+/// Strands with points on a grid of `step` mm; a coarse grid makes many points coincide.
+fn strands(step: f64, reach: i32) -> impl Strategy<Value = Strand> {
+    let point = (-reach..reach, -reach..reach)
+        .prop_map(move |(x, y)| DVec2::new(f64::from(x) * step, f64::from(y) * step));
+    let cycle = prop::collection::vec((point, 0..4usize), 1..12);
+    prop::collection::vec((cycle, 1..40u32, 0.3..4.0f64, 1..3usize), 1..6).prop_map(|cycles| {
+        let start = cycles[0].0[0].0;
+        let (mut z, mut index) = (0.0, 0);
+        let mut layers = Vec::new();
+        for (cycle, height, width, skip) in cycles {
+            let height = f64::from(height) * 0.05;
+            z += height;
+            index += skip;
+            let seam = cycle[0].0;
+            let rise = (!layers.is_empty()).then_some(Move { to: seam, role: Role::Seam });
+            let turn = cycle[1..].iter().map(|&(to, role)| Move { to, role: ROLES[role] });
+            let back = Move { to: seam, role: Role::Wall };
+            let moves = rise.into_iter().chain(turn).chain([back]).collect();
+            layers.push(StrandLayer { index, z, height, width, moves, supports: vec![] });
+        }
+        Strand::new(start, layers).unwrap()
+    })
+}
+
+fn settings() -> impl Strategy<Value = GcodeSettings> {
+    (any::<bool>(), prop::sample::select(vec![2.405, 1.0, 6.379, 403.0, 0.01]), any::<bool>(), 0..3usize)
+        .prop_map(|(relative_e, mm3_per_e, boxed, words)| GcodeSettings {
+            relative_e,
+            mm3_per_e,
+            bead: if boxed { BeadShape::Box } else { BeadShape::Rounded },
+            names: [RoleNames::prusa_slicer(), RoleNames::cura(), RoleNames::orca_slicer()][words].clone(),
+            ..GcodeSettings::default()
+        })
+}
+
+/// The places that a layer's moves pass, from wherever the strand was before, each once in a row.
+fn passed(points: impl IntoIterator<Item = [f64; 3]>) -> Vec<[f64; 3]> {
+    let mut points: Vec<_> = points.into_iter().collect();
+    points.dedup_by(|a, b| a.iter().zip(b.iter()).all(|(a, b)| (a - b).abs() < 1e-6));
+    points
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 96, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn what_is_written_is_read_again(strand in strands(1e-4, 600_000), settings in settings()) {
+        let program = read_gcode(&write_gcode(&strand, &settings).unwrap());
+        prop_assert!(program.bad_lines.is_empty());
+        let laid: Vec<_> = program.moves.iter().filter(|step| step.extruded != 0.0).collect();
+        let steps: Vec<_> = strand.steps().filter(|step| step.from != step.to).collect();
+        prop_assert_eq!(laid.len(), steps.len());
+        for (laid, step) in laid.iter().zip(&steps) {
+            prop_assert!(step.to.distance(laid.to.into()) < 1e-9 && step.from.distance(laid.from.into()) < 1e-9);
+            prop_assert_eq!(laid.layer, Some(strand.layers()[step.layer].index as i64));
+            let word = program.kind_of(laid).unwrap();
+            prop_assert_eq!(settings.names.role(word), Some(step.role));
+        }
+        let paste = program.extruded() * settings.mm3_per_e;
+        let volume = strand.volume_as(settings.bead);
+        prop_assert!((paste - volume).abs() < 1e-4 * settings.mm3_per_e.min(1.0) + 1e-9 * volume, "{} {}", paste, volume);
+    }
+
+    #[test]
+    fn nothing_is_dry_between_first_and_last_even_where_rounding_bites(
+        strand in strands(3.1e-5, 9), mut settings in settings(), e_decimals in prop::option::of(0..4u8),
+        decimals in 2..6u8,
+    ) {
+        settings.e_decimals = e_decimals;
+        settings.decimals = decimals;
+        let program = read_gcode(&write_gcode(&strand, &settings).unwrap());
+        let laid = program.strand_moves();
+        for step in laid {
+            prop_assert!(step.extruded > 0.0 && step.from != step.to);
+        }
+        for pair in laid.windows(2) {
+            prop_assert_eq!(pair[0].to, pair[1].from);
+            prop_assert!(pair[1].to[2] >= pair[0].to[2]);
+        }
+        let grid = 10f64.powi(-i32::from(decimals));
+        for layer in strand.layers() {
+            let own = laid.iter().filter(|step| step.layer == Some(layer.index as i64));
+            for point in own.map(|step| step.to) {
+                let near = layer.moves.iter().any(|step| {
+                    (step.to.x - point[0]).abs() < 0.51 * grid && (step.to.y - point[1]).abs() < 0.51 * grid
+                });
+                prop_assert!(near, "{:?} is no point of the layer", point);
+            }
+        }
+    }
+
+    #[test]
+    fn points_off_the_grid_move_by_half_a_step_at_most(strand in strands(0.012_345_67, 4000)) {
+        let program = read_gcode(&write_gcode(&strand, &GcodeSettings::default()).unwrap());
+        let laid = program.moves.iter().filter(|step| step.extruded > 0.0);
+        let written = passed(laid.map(|step| step.to));
+        let planned = passed(strand.steps().filter(|step| step.from != step.to).map(|step| step.to.to_array()));
+        prop_assert_eq!(written.len(), planned.len());
+        for (a, b) in written.iter().zip(&planned) {
+            prop_assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 0.5e-4 + 1e-9));
+        }
+    }
+
+    #[test]
+    fn no_text_stops_the_reader(text in "(?s).{0,300}") {
+        let program = read_gcode(&text);
+        prop_assert!(program.moves.iter().all(|step| step.to.iter().all(|value| value.is_finite())));
+    }
+
+    #[test]
+    fn no_code_stops_the_reader(lines in prop::collection::vec(
+        ("[GM;]", prop::sample::select(vec!["0", "1", "2", "3", "20", "82", "83", "90", "91", "92", "LAYER:", "TYPE:"]),
+         "( ?[XYZEIJRF]-?[0-9]{1,3}(\\.[0-9]{1,3})?(e[0-9]{1,3})?){0,5}"), 0..30)) {
+        let text: String = lines.iter().map(|(a, b, c)| format!("{a}{b}{c}\n")).collect();
+        let program = read_gcode(&text);
+        prop_assert!(program.moves.iter().all(|step| step.to.iter().all(|value| value.is_finite())));
+        prop_assert!(program.moves.iter().all(|step| step.line >= 1 && step.line <= lines.len()));
+    }
+}
+
+fn square(side: f64) -> Strand {
+    let corners = [(side, 0.0), (side, side), (0.0, side), (0.0, 0.0)];
+    let moves = corners.map(|(x, y)| Move { to: DVec2::new(x, y), role: Role::Wall }).to_vec();
+    let layer = StrandLayer { index: 0, z: 0.5, height: 0.5, width: 1.5, moves, supports: vec![] };
+    Strand::new(DVec2::ZERO, vec![layer]).unwrap()
+}
+
+#[test]
+fn the_file_is_what_its_description_says() {
+    let settings = GcodeSettings {
+        generator: "a planner".into(),
+        header: vec![("epsilon_across".into(), "0.45 mm".into())],
+        start: "G28".into(),
+        end: "M84".into(),
+        mm3_per_e: 1.0,
+        bead: BeadShape::Box,
+        ..GcodeSettings::default()
+    };
+    let expected = "\
+; generated by a planner
+; epsilon_across = 0.45 mm
+;LAYER_COUNT:1
+G28
+G21 ; millimetres
+G90 ; absolute coordinates
+M83 ; E
+G92 E0
+G1 Z5.5 F1500
+G1 X0 Y0
+G1 Z0.5
+;LAYER_CHANGE
+;Z:0.5
+;HEIGHT:0.5
+;LAYER:0
+;WIDTH:1.5
+;TYPE:External perimeter
+G1 X8 Y0 E6 F900
+G1 X8 Y8 E6
+G1 X0 Y8 E6
+G1 X0 Y0 E6
+G1 Z5.5 F1500
+M84
+";
+    assert_eq!(write_gcode(&square(8.0), &settings).unwrap(), expected);
+}
+
+#[test]
+fn comments_cannot_smuggle_code_or_layers() {
+    for (key, value) in [("a\nG1 X0", "b"), ("a", "b\rG1"), ("LAYER:3", ""), ("layer_change", ""), (" ", "b")]
+    {
+        let settings = GcodeSettings { header: vec![(key.into(), value.into())], ..GcodeSettings::default() };
+        let refused = write_gcode(&square(8.0), &settings);
+        assert!(matches!(refused, Err(GcodeError::Comment { .. })), "{key:?} {value:?}");
+    }
+}
+
+#[test]
+fn settings_that_cannot_extrude_are_refused() {
+    let with = |change: &dyn Fn(&mut GcodeSettings)| {
+        let mut settings = GcodeSettings::default();
+        change(&mut settings);
+        write_gcode(&square(8.0), &settings).unwrap_err()
+    };
+    for error in [
+        with(&|s| s.mm3_per_e = 0.0),
+        with(&|s| s.mm3_per_e = f64::NAN),
+        with(&|s| s.feed = -1.0),
+        with(&|s| s.lift = f64::INFINITY),
+        with(&|s| s.decimals = 7),
+        with(&|s| s.e_decimals = Some(10)),
+    ] {
+        assert!(matches!(error, GcodeError::Setting { .. }), "{error}");
+    }
+    let far = write_gcode(&square(1e15), &GcodeSettings::default());
+    assert!(matches!(far, Err(GcodeError::OutOfRange { layer: 0, .. })));
+}
+
+#[test]
+fn layers_that_rounding_would_merge_are_refused() {
+    let layer = |index, z, moves| StrandLayer { index, z, height: 0.5, width: 1.5, moves, supports: vec![] };
+    let square = square(8.0);
+    let turn = square.layers()[0].moves.clone();
+    let seam = Move { to: DVec2::ZERO, role: Role::Seam };
+    let above = [seam].into_iter().chain(turn.clone()).collect();
+    let strand = Strand::new(DVec2::ZERO, vec![layer(0, 0.5, turn), layer(1, 0.500_01, above)]).unwrap();
+    let refused = write_gcode(&strand, &GcodeSettings::default());
+    assert_eq!(refused, Err(GcodeError::LayersMerge { layer: 1, z: 0.500_01, decimals: 4 }));
+}
+
+#[test]
+fn modes_offsets_and_arcs_are_followed() {
+    let program = read_gcode(
+        "G90\nM82\nG92 X1 Y2 Z3 E4\nG1 X2 E5\nG91\nG0 X1\nM83\nG1 Y1 E-2\nG90\nG3 X13 Y3 I5 J0 E1\nG2 X0 Y0 R1\nG20",
+    );
+    assert_eq!(program.moves[0].from, [1.0, 2.0, 3.0]);
+    assert_eq!((program.moves[0].to, program.moves[0].extruded), ([2.0, 2.0, 3.0], 1.0));
+    assert_eq!(program.moves[1].to, [3.0, 2.0, 3.0]);
+    assert_eq!((program.moves[2].to, program.moves[2].extruded), ([3.0, 3.0, 3.0], -2.0));
+    let arc: Vec<_> = program.moves.iter().filter(|step| step.line == 10).collect();
+    assert!(arc.len() > 10 && arc.iter().all(|step| step.to[1] < 3.0 + 1e-9));
+    let length: f64 = arc.iter().map(|step| step.planar_length()).sum();
+    assert!((length - 5.0 * std::f64::consts::PI).abs() < 0.1);
+    assert!((arc.iter().map(|step| step.extruded).sum::<f64>() - 1.0).abs() < 1e-12);
+    let faults: Vec<_> = program.bad_lines.iter().map(|bad| (bad.line, bad.fault)).collect();
+    assert_eq!(faults, [(11, Fault::BadArc), (12, Fault::Inches)]);
+    assert_eq!(program.moves.last().unwrap().to, [0.0, 0.0, 3.0]);
+}
+
+#[test]
+fn layer_comments_are_read_in_every_form() {
+    let program =
+        read_gcode(";LAYER_CHANGE\nG1 X1\n; layer:7 of 9\nG1 X2\r\n;LAYER_CHANGE\rG1 X3\n;LAYER:x\nG1 X4");
+    let layers: Vec<_> = program.moves.iter().map(|step| step.layer).collect();
+    assert_eq!(layers, [Some(0), Some(7), Some(8), Some(8)]);
+    assert_eq!(program.moves[2].line, 6);
+}
