@@ -1,0 +1,139 @@
+//! Places on walls where strands leave and join them.
+
+use argil_curve::{ClosedCurve, DVec2};
+
+/// Attachments of one layer: for every wall the arcs that are taken, so that no two come too close.
+#[derive(Clone, Debug)]
+pub(crate) struct Attachments {
+    taken: Vec<Vec<f64>>,
+    gap: f64,
+    step: f64,
+}
+
+impl Attachments {
+    pub(crate) fn new(walls: usize, gap: f64, step: f64) -> Self {
+        Self { taken: vec![Vec::new(); walls], gap, step }
+    }
+
+    /// Takes an arc of a wall.
+    pub(crate) fn take(&mut self, wall: usize, arc: f64) {
+        self.taken[wall].push(arc);
+    }
+
+    /// The arc nearest to `wanted` that keeps the gap to all taken ones; `wanted` itself, or a quarter
+    /// of a small wall away, where there is no such place.
+    pub(crate) fn free_near(&self, wall: usize, curve: &ClosedCurve, wanted: f64) -> f64 {
+        let length = curve.length();
+        let gap = self.gap.min(0.25 * length);
+        let clear = |arc: f64| {
+            self.taken[wall].iter().map(|&t| curve.arc_gap(arc, t)).fold(f64::INFINITY, f64::min)
+        };
+        let tries = (0.5 * length / self.step).ceil().min(200.0) as usize;
+        let mut best = (clear(wanted), wanted);
+        for k in 0..=tries {
+            for side in [1.0, -1.0] {
+                let arc = (wanted + side * k as f64 * self.step).rem_euclid(length);
+                let room = clear(arc);
+                if room >= gap {
+                    return arc;
+                }
+                if room > best.0 {
+                    best = (room, arc);
+                }
+            }
+        }
+        best.1
+    }
+}
+
+/// A wall's loop with attachments inserted as vertices.
+#[derive(Clone, Debug)]
+pub(crate) struct AttachedLoop {
+    /// Vertices of the loop, attachments included.
+    pub(crate) points: Vec<DVec2>,
+    /// Index of each attachment among the points, in the order given.
+    pub(crate) at: Vec<usize>,
+}
+
+/// Inserts attachments at the given arcs. Each is rounded to the grid and pushed two grid steps towards
+/// the side on which its strand lies, so that the triangulation there sees it as a convex corner of the
+/// wall and not behind a sliver. Attachments that fall on a vertex, or on each other, share it.
+///
+/// `outside[k]` tells whether attachment k has its strand outside of the loop.
+pub(crate) fn attach(curve: &ClosedCurve, arcs: &[f64], outside: &[bool], grid: f64) -> AttachedLoop {
+    let merge = 40.0 * grid;
+    let ccw = curve.signed_area() > 0.0;
+    let mut order: Vec<usize> = (0..arcs.len()).collect();
+    order.sort_by(|&a, &b| arcs[a].total_cmp(&arcs[b]).then(a.cmp(&b)));
+    let mut points = Vec::with_capacity(curve.segment_count() + arcs.len());
+    let mut at = vec![0; arcs.len()];
+    let mut next = order.into_iter().peekable();
+    for segment in 0..curve.segment_count() {
+        let line = curve.segment(segment);
+        let begin = curve.arc_of(segment);
+        let end = begin + line.length();
+        points.push(line.start);
+        while let Some(&k) = next.peek() {
+            if arcs[k] >= end && segment + 1 < curve.segment_count() {
+                break;
+            }
+            next.next();
+            let along = (arcs[k] - begin).clamp(0.0, line.length());
+            let direction = (line.end - line.start).normalize_or_zero();
+            let last = points[points.len() - 1];
+            let right = DVec2::new(direction.y, -direction.x);
+            let outward = if ccw { right } else { -right };
+            let push = if outside[k] { outward } else { -outward };
+            let place = line.start + along * direction;
+            if last.distance(place) <= merge {
+                at[k] = points.len() - 1;
+            } else if line.end.distance(place) <= merge {
+                // The end is the next vertex: the first of the loop after the last segment.
+                at[k] = if segment + 1 == curve.segment_count() { 0 } else { points.len() };
+            } else {
+                at[k] = points.len();
+                points.push(((place + 2.0 * grid * push) / grid).round() * grid);
+            }
+        }
+    }
+    AttachedLoop { points, at }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square() -> ClosedCurve {
+        let corners = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)];
+        ClosedCurve::new(corners.iter().map(|&(x, y)| DVec2::new(x, y)).collect()).unwrap()
+    }
+
+    #[test]
+    fn attachments_stand_in_order_and_lean_to_their_side() {
+        let loops = attach(&square(), &[25.0, 5.0, 10.0], &[true, false, true], 1e-4);
+        assert_eq!(loops.points.len(), 6);
+        assert_eq!(loops.points[loops.at[2]], DVec2::new(10.0, 0.0), "on a corner: the corner itself");
+        assert!(loops.points[loops.at[1]].y > 0.0, "inside");
+        assert!(loops.points[loops.at[0]].y > 10.0, "outside");
+    }
+
+    #[test]
+    fn a_taken_place_is_kept_clear_of() {
+        let curve = square();
+        let mut attachments = Attachments::new(1, 2.5, 0.5);
+        attachments.take(0, 5.0);
+        let arc = attachments.free_near(0, &curve, 5.2);
+        assert!(curve.arc_gap(arc, 5.0) >= 2.5);
+        assert!(curve.arc_gap(arc, 5.2) <= 3.5);
+    }
+
+    #[test]
+    fn a_tiny_wall_still_gets_a_place() {
+        let corners = [(0.0, 0.0), (0.5, 0.0), (0.5, 0.5)];
+        let curve = ClosedCurve::new(corners.iter().map(|&(x, y)| DVec2::new(x, y)).collect()).unwrap();
+        let mut attachments = Attachments::new(1, 2.5, 0.5);
+        attachments.take(0, 0.0);
+        let arc = attachments.free_near(0, &curve, 0.0);
+        assert!(curve.arc_gap(arc, 0.0) > 0.2);
+    }
+}

@@ -1,0 +1,363 @@
+//! The plan of one region: its attachments, its tours, and the graph that they are drawn on.
+
+use argil_curve::{ClosedCurve, DVec2, SegmentIndex};
+use argil_graph::{DistanceMatrix, FreeSpace, Nodes, PathGraph};
+use argil_tour::{Metric, shortest_tour};
+
+use crate::attachment::{Attachments, attach};
+use crate::cycle::Leg;
+use crate::discs::Discs;
+use crate::excursion::Stops;
+use crate::joint::{Reuse, join_walls};
+use crate::round_tour::meeting_places;
+use crate::{Region, RouteError, RouteSettings};
+
+/// What one region sees of its layer.
+pub(crate) struct RegionView<'a> {
+    pub(crate) settings: &'a RouteSettings,
+    pub(crate) region: &'a Region,
+    /// All walls of the layer.
+    pub(crate) curves: &'a [ClosedCurve],
+    /// Indices of the region's walls: the one around it or, outside of all, the longest; then the others, longest first.
+    pub(crate) walls: Vec<usize>,
+    /// Segments of the region's walls.
+    pub(crate) index: SegmentIndex,
+    /// The cycle above.
+    pub(crate) above: Option<&'a SegmentIndex>,
+    /// Where paths may bend.
+    pub(crate) steiner: Vec<DVec2>,
+    /// Anchors of the region's demands.
+    pub(crate) anchors: Vec<&'a [DVec2]>,
+}
+
+/// An attachment: a place on a wall that is a vertex of the region's graph.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cut {
+    pub(crate) wall: usize,
+    pub(crate) arc: f64,
+    pub(crate) at: DVec2,
+    pub(crate) vertex: u32,
+}
+
+/// A closed walk through the region.
+#[derive(Clone, Debug)]
+pub(crate) struct Tour {
+    /// Graph vertices of the stops, in order.
+    pub(crate) stops: Vec<u32>,
+    pub(crate) leg: Leg,
+}
+
+/// Everything that the assembly needs of a region.
+#[derive(Debug)]
+pub(crate) struct RegionPlan {
+    pub(crate) graph: PathGraph,
+    pub(crate) cuts: Vec<Cut>,
+    pub(crate) tours: Vec<Tour>,
+    /// Where the region's demands are met.
+    pub(crate) demands: Vec<DVec2>,
+    /// Length of all tours and the price of their roots, mm.
+    cost: f64,
+}
+
+/// A stop of a sketched tour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Stop {
+    Demand(usize),
+    Place(usize),
+}
+
+/// Which tours a region is to have, before they are drawn.
+#[derive(Clone, Debug, Default)]
+struct Sketch {
+    /// Places on walls: (index among the region's walls, arc).
+    places: Vec<(usize, f64)>,
+    tours: Vec<Vec<Stop>>,
+}
+
+/// Distances among the stops of one tour.
+struct Among<'a> {
+    distances: &'a DistanceMatrix,
+    stops: &'a [usize],
+}
+
+impl Metric for Among<'_> {
+    fn nodes(&self) -> usize {
+        self.stops.len()
+    }
+
+    fn distance(&self, a: usize, b: usize) -> f64 {
+        self.distances.get(self.stops[a], self.stops[b])
+    }
+}
+
+impl RegionView<'_> {
+    /// Plans the region: excursions, or one tour through all, whichever is cheaper; then again with the
+    /// demands moved towards the tours, for as long as that pays.
+    pub(crate) fn plan(
+        &self,
+        demands: &[DVec2],
+        attachments: &mut Attachments,
+    ) -> Result<RegionPlan, RouteError> {
+        let taken = attachments.clone();
+        let mut best = self.cheapest(demands, &taken)?;
+        for _ in 0..self.settings.relaxations {
+            if self.region.demands.is_empty() {
+                break;
+            }
+            let moved = self.relaxed(&best)?;
+            let next = self.cheapest(&moved, &taken)?;
+            if next.cost >= best.cost {
+                break;
+            }
+            best = next;
+        }
+        for cut in &best.cuts {
+            attachments.take(cut.wall, cut.arc);
+        }
+        Ok(best)
+    }
+
+    fn cheapest(&self, demands: &[DVec2], taken: &Attachments) -> Result<RegionPlan, RouteError> {
+        if self.walls.is_empty() {
+            let tour = (0..demands.len()).map(Stop::Demand).collect();
+            return self.draw(&Sketch { places: Vec::new(), tours: vec![tour] }, demands);
+        }
+        let plan = self.draw(&self.sketch_excursions(demands, taken)?, demands)?;
+        if self.walls.len() == 1 {
+            return Ok(plan);
+        }
+        let round = self.draw(&self.sketch_round(demands, taken), demands)?;
+        Ok(if round.cost < plan.cost { round } else { plan })
+    }
+
+    fn wall(&self, local: usize) -> &ClosedCurve {
+        &self.curves[self.walls[local]]
+    }
+
+    /// Walls joined by a tree, demands served by excursions.
+    fn sketch_excursions(&self, demands: &[DVec2], taken: &Attachments) -> Result<Sketch, RouteError> {
+        let s = self.settings;
+        let walls: Vec<&ClosedCurve> = (0..self.walls.len()).map(|w| self.wall(w)).collect();
+        let to_wall: Vec<Vec<f64>> =
+            demands.iter().map(|&d| walls.iter().map(|w| w.nearest(d).distance).collect()).collect();
+        let reuse = Reuse { reach: s.reuse_reach * s.width, share: s.reuse };
+        let joints = join_walls(&walls, demands, &to_wall, reuse);
+        let mut taken = taken.clone();
+        let mut places = Vec::with_capacity(joints.len());
+        for joint in &joints {
+            let arc = taken.free_near(self.walls[joint.wall], walls[joint.wall], joint.arc);
+            taken.take(self.walls[joint.wall], arc);
+            places.push((joint.wall, arc));
+        }
+        let (graph, cuts) = self.graph(&places, demands)?;
+        let among: Vec<u32> = cuts
+            .iter()
+            .map(|c| c.vertex)
+            .chain((0..demands.len()).map(|d| graph.terminal(d)))
+            .collect();
+        let distances = self.distances(&graph, &among)?;
+        // Stops are the joints first, each bound to its parent, then the demands.
+        let mut reach: Vec<Vec<f64>> = Vec::with_capacity(among.len());
+        for (joint, cut) in joints.iter().zip(&cuts) {
+            let mut row = vec![f64::INFINITY; walls.len()];
+            row[joint.parent] = walls[joint.parent].nearest(cut.at).distance;
+            reach.push(row);
+        }
+        reach.extend(to_wall);
+        let bound: Vec<bool> = (0..among.len()).map(|k| k < joints.len()).collect();
+        let stops = Stops {
+            distances: &distances,
+            to_wall: &reach,
+            bound: &bound,
+            root_cost: s.root_cost * s.width,
+        };
+        let mut excursions = stops.excursions();
+        excursions.sort_by_key(|e| e.stops.len());
+        let mut tours = Vec::with_capacity(excursions.len());
+        for excursion in &excursions {
+            let (wall, curve) = (excursion.wall, walls[excursion.wall]);
+            let nearest = excursion
+                .stops
+                .iter()
+                .copied()
+                .min_by(|&a, &b| reach[a][wall].total_cmp(&reach[b][wall]).then(a.cmp(&b)))
+                .unwrap_or_default();
+            let from = if nearest < joints.len() { cuts[nearest].at } else { demands[nearest - joints.len()] };
+            let arc = taken.free_near(self.walls[wall], curve, curve.nearest(from).s);
+            taken.take(self.walls[wall], arc);
+            let home = Stop::Place(places.len());
+            places.push((wall, arc));
+            let stop = |k: usize| if k < joints.len() { Stop::Place(k) } else { Stop::Demand(k - joints.len()) };
+            tours.push(excursion.stops.iter().map(|&k| stop(k)).chain([home]).collect());
+        }
+        Ok(Sketch { places, tours })
+    }
+
+    /// One tour through all walls and demands.
+    fn sketch_round(&self, demands: &[DVec2], taken: &Attachments) -> Sketch {
+        let walls: Vec<&ClosedCurve> = (0..self.walls.len()).map(|w| self.wall(w)).collect();
+        let wanted = meeting_places(&walls, demands, &self.settings.tour);
+        let mut taken = taken.clone();
+        let mut places = Vec::with_capacity(walls.len());
+        for (local, &arc) in wanted.iter().enumerate() {
+            let arc = taken.free_near(self.walls[local], walls[local], arc);
+            taken.take(self.walls[local], arc);
+            places.push((local, arc));
+        }
+        let stops = (0..places.len()).map(Stop::Place).chain((0..demands.len()).map(Stop::Demand)).collect();
+        Sketch { places, tours: vec![stops] }
+    }
+
+    /// Draws a sketch: the graph with all its places, and the shortest tour through the stops of each.
+    fn draw(&self, sketch: &Sketch, demands: &[DVec2]) -> Result<RegionPlan, RouteError> {
+        let s = self.settings;
+        let (graph, cuts) = self.graph(&sketch.places, demands)?;
+        let among: Vec<u32> = cuts
+            .iter()
+            .map(|c| c.vertex)
+            .chain((0..demands.len()).map(|d| graph.terminal(d)))
+            .collect();
+        let distances = self.distances(&graph, &among)?;
+        let mut cost = s.root_cost * s.width * cuts.len() as f64;
+        let mut tours = Vec::with_capacity(sketch.tours.len());
+        for stops in &sketch.tours {
+            let serves = stops.iter().any(|stop| matches!(stop, Stop::Demand(_)));
+            let stops: Vec<usize> = stops
+                .iter()
+                .map(|&stop| match stop {
+                    Stop::Place(place) => place,
+                    Stop::Demand(demand) => cuts.len() + demand,
+                })
+                .collect();
+            let tour = shortest_tour(&Among { distances: &distances, stops: &stops }, &[], None, &s.tour);
+            cost += tour.length;
+            tours.push(Tour {
+                stops: tour.order.iter().map(|&k| among[stops[k]]).collect(),
+                leg: if serves { Leg::Support } else { Leg::Joint },
+            });
+        }
+        Ok(RegionPlan { graph, cuts, tours, demands: demands.to_vec(), cost })
+    }
+
+    /// The region's graph with the given places on its walls as attachments.
+    fn graph(
+        &self,
+        places: &[(usize, f64)],
+        demands: &[DVec2],
+    ) -> Result<(PathGraph, Vec<Cut>), RouteError> {
+        let s = self.settings;
+        let mut cuts: Vec<Cut> = places
+            .iter()
+            .map(|&(local, arc)| Cut { wall: self.walls[local], arc, at: DVec2::ZERO, vertex: 0 })
+            .collect();
+        let mut loops = Vec::with_capacity(self.walls.len());
+        for &wall in &self.walls {
+            let own: Vec<usize> = (0..cuts.len()).filter(|&k| cuts[k].wall == wall).collect();
+            let arcs: Vec<f64> = own.iter().map(|&k| cuts[k].arc).collect();
+            let outside = vec![self.region.outer != Some(wall); own.len()];
+            let attached = attach(&self.curves[wall], &arcs, &outside, s.grid);
+            for (&k, &at) in own.iter().zip(&attached.at) {
+                cuts[k].at = attached.points[at];
+            }
+            loops.push(attached.points);
+        }
+        let outer = self.region.outer.map(|_| loops[0].as_slice());
+        let holes = loops.iter().skip(usize::from(outer.is_some())).map(Vec::as_slice).collect();
+        let attachments: Vec<DVec2> = cuts.iter().map(|c| c.at).collect();
+        let nodes = Nodes {
+            attachments: &attachments,
+            terminals: demands,
+            steiner: &self.steiner,
+            spacing: 0.27 * s.width,
+        };
+        let graph = PathGraph::build(&FreeSpace { outer, holes }, &nodes, |a, b| self.weight(a, b))
+            .map_err(|source| RouteError::Graph { near: self.somewhere(demands), source })?;
+        for (k, cut) in cuts.iter_mut().enumerate() {
+            cut.vertex = graph.attachment(k);
+        }
+        Ok((graph, cuts))
+    }
+
+    /// Length of an edge, cheaper along the cycle above (coherence) and dearer beside a wall.
+    fn weight(&self, a: DVec2, b: DVec2) -> f64 {
+        let s = self.settings;
+        let mut weight = a.distance(b);
+        if let Some(above) = self.above
+            && [a, b, a.midpoint(b)].iter().all(|&p| above.nearest_within(p, s.across).is_some())
+        {
+            weight *= s.coherence;
+        }
+        let crowding = |t: f64| {
+            self.index.nearest_within(a.lerp(b, t), s.width).map_or(0.0, |near| 1.0 - near.distance / s.width)
+        };
+        weight * (1.0 + s.wall_penalty * (crowding(0.15) + crowding(0.5) + crowding(0.85)) / 3.0)
+    }
+
+    /// Distances among vertices, all of them finite.
+    fn distances(&self, graph: &PathGraph, among: &[u32]) -> Result<DistanceMatrix, RouteError> {
+        let distances = graph.distances(among);
+        match (0..among.len()).find(|&k| !distances.get(0, k).is_finite()) {
+            Some(k) => Err(RouteError::Unreachable { at: graph.position(among[k]) }),
+            None => Ok(distances),
+        }
+    }
+
+    /// A point to name in errors.
+    fn somewhere(&self, demands: &[DVec2]) -> DVec2 {
+        let wall = self.walls.first().map(|&w| self.curves[w].points()[0]);
+        demands.first().copied().or(wall).unwrap_or_default()
+    }
+
+    /// The demands moved within their slack towards the tours of a plan.
+    fn relaxed(&self, plan: &RegionPlan) -> Result<Vec<DVec2>, RouteError> {
+        let s = self.settings;
+        let count = plan.demands.len();
+        // Points: the demands, then the other vertices of the graph as they are met.
+        let mut points = plan.demands.clone();
+        points.extend(plan.graph.positions());
+        let mut demand_at = vec![usize::MAX; plan.graph.vertex_count()];
+        for demand in (0..count).rev() {
+            demand_at[plan.graph.terminal(demand) as usize] = demand;
+        }
+        let place = |v: u32| match demand_at[v as usize] {
+            usize::MAX => count + v as usize,
+            demand => demand,
+        };
+        let mut neighbours = vec![Vec::new(); count];
+        for tour in &plan.tours {
+            plan.walk(tour, |path| {
+                for pair in path.windows(2) {
+                    for (here, there) in [(pair[0], pair[1]), (pair[1], pair[0])] {
+                        if let Some(met) = neighbours.get_mut(place(here)) {
+                            met.push(place(there));
+                        }
+                    }
+                }
+            })?;
+        }
+        let discs = Discs {
+            anchors: &self.anchors,
+            radius: s.slack,
+            walls: &self.index,
+            wall_keep: s.wall_keep * s.width,
+        };
+        discs.relax(&mut points, &neighbours);
+        points.truncate(count);
+        Ok(points.into_iter().map(|p| (p / s.grid).round() * s.grid).collect())
+    }
+}
+
+impl RegionPlan {
+    /// Calls `visit` with the graph path of every hop of a tour.
+    pub(crate) fn walk(&self, tour: &Tour, mut visit: impl FnMut(&[u32])) -> Result<(), RouteError> {
+        let n = tour.stops.len();
+        for k in 0..if n > 1 { n } else { 0 } {
+            let (from, to) = (tour.stops[k], tour.stops[(k + 1) % n]);
+            if from != to {
+                let path = self.graph.path(from, to);
+                visit(&path.ok_or_else(|| RouteError::Unreachable { at: self.graph.position(to) })?);
+            }
+        }
+        Ok(())
+    }
+}

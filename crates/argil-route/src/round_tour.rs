@@ -1,0 +1,60 @@
+//! One tour through all walls and demands of a region: where each wall is best met.
+
+use argil_curve::{ClosedCurve, DVec2, Segment};
+use argil_tour::{Metric, TourOptions, shortest_tour};
+
+/// Straight-line distances: a first guess of the order in which walls are met.
+struct Straight<'a>(&'a [DVec2]);
+
+impl Metric for Straight<'_> {
+    fn nodes(&self) -> usize {
+        self.0.len()
+    }
+
+    fn distance(&self, a: usize, b: usize) -> f64 {
+        self.0[a].distance(self.0[b])
+    }
+}
+
+/// Rounds of tour and adjustment; the places settle after two.
+const ROUNDS: usize = 3;
+
+/// The arc at which each wall is met by one tour through everything.
+///
+/// Begins at the place nearest to the middle of all, then alternates between a tour through the places and
+/// moving each place to the point of its wall that is nearest to the line between its neighbours.
+pub(crate) fn meeting_places(walls: &[&ClosedCurve], demands: &[DVec2], options: &TourOptions) -> Vec<f64> {
+    let all: Vec<DVec2> = walls.iter().flat_map(|w| w.points().iter().copied()).chain(demands.iter().copied()).collect();
+    let middle = all.iter().sum::<DVec2>() / all.len().max(1) as f64;
+    let mut arcs: Vec<f64> = walls.iter().map(|w| w.nearest(middle).s).collect();
+    for _ in 0..ROUNDS {
+        let mut places: Vec<DVec2> = walls.iter().zip(&arcs).map(|(w, &s)| w.point_at(s)).collect();
+        places.extend(demands);
+        let order = shortest_tour(&Straight(&places), &[], None, options).order;
+        let n = order.len();
+        if n < 3 {
+            break;
+        }
+        for (k, &node) in order.iter().enumerate() {
+            if node < walls.len() {
+                let line = Segment::new(places[order[(k + n - 1) % n]], places[order[(k + 1) % n]]);
+                arcs[node] = nearest_to(walls[node], line);
+            }
+        }
+    }
+    arcs
+}
+
+/// The arc of the curve's vertex or of the line's ends' projection that comes nearest to the line.
+fn nearest_to(curve: &ClosedCurve, line: Segment) -> f64 {
+    let detour = |p: DVec2| p.distance(line.start) + p.distance(line.end);
+    let mut best = (f64::INFINITY, 0.0);
+    let projections = [line.start, line.end, line.point_at(0.5)].map(|p| curve.nearest(p).s);
+    for s in projections.into_iter().chain((0..curve.segment_count()).map(|k| curve.arc_of(k))) {
+        let cost = detour(curve.point_at(s));
+        if cost < best.0 {
+            best = (cost, s);
+        }
+    }
+    best.1
+}
