@@ -11,11 +11,8 @@ use glam::DVec2;
 /// So bodies that overlap are one, cavities stay, and a mesh that is inside out (it winds −1 times) is as good as
 /// another. Pieces of less than `least_area` are dropped.
 pub(crate) fn wound_region(contours: Vec<Vec<DVec2>>, least_area: f64) -> MultiPolygon<f64> {
-    let rings = contours.into_iter().filter(|ring| ring.len() >= 3).map(|ring| {
-        let coords = ring.into_iter().map(|p| Coord { x: p.x, y: p.y }).collect();
-        Polygon::new(LineString(coords), Vec::new())
-    });
-    let rings = MultiPolygon(rings.collect());
+    let rings = contours.into_iter().filter(|ring| ring.len() >= 3);
+    let rings = MultiPolygon(rings.map(|ring| polygon_through(&[ring])).collect());
     let mut region =
         rings.boolean_op_with_fill_rule(&MultiPolygon(Vec::new()), OpType::Union, FillRule::NonZero);
     region.0.retain(|polygon| polygon.unsigned_area() >= least_area);
@@ -56,6 +53,13 @@ pub(crate) fn ring_points(ring: &LineString<f64>) -> Vec<DVec2> {
         points.pop();
     }
     points
+}
+
+/// The polygon through these vertices, the exterior first.
+pub(crate) fn polygon_through(rings: &[Vec<DVec2>]) -> Polygon<f64> {
+    let ring = |points: &Vec<DVec2>| LineString(points.iter().map(|p| Coord { x: p.x, y: p.y }).collect());
+    let mut rings = rings.iter().map(ring);
+    Polygon::new(rings.next().unwrap_or(LineString(Vec::new())), rings.collect())
 }
 
 /// Twice the signed area would do for a sign, but the loops are compared by area as well.

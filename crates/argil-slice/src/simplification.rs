@@ -3,24 +3,27 @@
 
 use glam::DVec2;
 
-/// A closed curve through some of the vertices, from which no vertex is farther than `tolerance`,
-/// on the grid of the output and with no side shorter than `least_side`.
+/// A closed curve through some of the vertices, from which no vertex is farther than `tolerance`.
 ///
-/// The result may cross itself; whoever calls checks it.
-pub(crate) fn simplified(ring: &[DVec2], tolerance: f64, grid: f64, least_side: f64) -> Vec<DVec2> {
-    let kept = thinned(ring, tolerance);
+/// The result may cross itself where the ring comes within two tolerances of itself.
+pub(crate) fn simplified(ring: &[DVec2], tolerance: f64) -> Vec<DVec2> {
+    thinned(ring, tolerance).into_iter().map(|index| ring[index]).collect()
+}
+
+/// The ring on the grid of the output, without the sides that are shorter than `least_side`.
+pub(crate) fn rounded(ring: &[DVec2], grid: f64, least_side: f64) -> Vec<DVec2> {
     let steps = 1.0 / grid;
-    let mut rounded: Vec<DVec2> = Vec::with_capacity(kept.len());
-    for index in kept {
-        let point = (ring[index] * steps).round() / steps;
-        if rounded.last().is_none_or(|last| last.distance(point) >= least_side) {
-            rounded.push(point);
+    let mut kept: Vec<DVec2> = Vec::with_capacity(ring.len());
+    for &point in ring {
+        let point = (point * steps).round() / steps;
+        if kept.last().is_none_or(|last| last.distance(point) >= least_side) {
+            kept.push(point);
         }
     }
-    while rounded.len() > 1 && rounded[rounded.len() - 1].distance(rounded[0]) < least_side {
-        rounded.pop();
+    while kept.len() > 1 && kept[kept.len() - 1].distance(kept[0]) < least_side {
+        kept.pop();
     }
-    rounded
+    kept
 }
 
 /// The indices that stay, rising. Two anchors are kept in any case: the lowest leftmost vertex, which is a

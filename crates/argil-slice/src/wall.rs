@@ -1,7 +1,7 @@
 use crate::containment::nest;
 use crate::layer::{Loss, WallLoop};
-use crate::region::{self, perimeter, ring_points, signed_area};
-use crate::simplification::simplified;
+use crate::region::{self, perimeter, polygon_through, ring_points, signed_area};
+use crate::simplification::{distance_to_side, rounded, simplified};
 use crate::soundness::unsound;
 use crate::SliceSettings;
 use geo::{Area, BooleanOps, Centroid, InteriorPoint};
@@ -11,6 +11,10 @@ use glam::DVec2;
 /// How far arcs may cut their corners, in w: a hundredth of what the eye sees on clay, and
 /// arcs still have few enough chords to be simplified quickly.
 const CHORD: f64 = 0.003;
+
+/// What an outline is simplified by before it is inset, in w. Scans have many more vertices than
+/// a bead can follow, and the polygon kernel's time grows with the number that lie within the inset of each other.
+const OUTLINE_TOLERANCE: f64 = 0.002;
 
 /// How an inset is cleaned, in w: `opening` is the radius of the disc that must fit everywhere, `tolerance` what
 /// the simplification may move the curve by.
@@ -45,11 +49,16 @@ const BRANCH_AREA: f64 = 0.25;
 /// What the bead may fall short of an outline by without it being a lost branch, in w.
 const BRANCH_SLACK: f64 = 1.0 / 30.0;
 
+/// Outlines whose boundary comes within this of a wall everywhere, in w, have no lost branch: at its tip
+/// a branch is farther away. A right angle, where nothing is lost, is 0.707 w from the wall.
+const BRANCH_DISTANCE: f64 = 0.75;
+
 /// The walls of a layer's outline, and what of it they do not print.
 pub(crate) fn walls(layer: usize, outline: &MultiPolygon<f64>, settings: &SliceSettings) -> (Vec<WallLoop>, Vec<Loss>) {
     let mut losses = Vec::new();
     let mut pieces: Vec<Piece<'_>> = Vec::new();
-    for polygon in outline {
+    let simple: Vec<Polygon<f64>> = outline.iter().map(|polygon| simpler(polygon, settings.width)).collect();
+    for polygon in &simple {
         let found = pieces.len();
         for wall in 0..settings.walls {
             let distance = (wall as f64 + 0.5) * settings.width;
@@ -68,9 +77,10 @@ pub(crate) fn walls(layer: usize, outline: &MultiPolygon<f64>, settings: &SliceS
             });
             pieces.extend(thin);
         } else {
-            let first: Vec<Polygon<f64>> =
-                pieces[found..].iter().filter(|piece| piece.source.wall == 0).map(|piece| piece.region.clone()).collect();
-            losses.extend(lost_branches(layer, polygon, MultiPolygon(first), settings));
+            let first: Vec<&Piece<'_>> = pieces[found..].iter().filter(|piece| piece.source.wall == 0).collect();
+            if !comes_near(polygon, &first, settings.width) {
+                losses.extend(lost_branches(layer, polygon, &first, settings));
+            }
         }
     }
     let pieces = sound_pieces(pieces, layer, settings, &mut losses);
@@ -115,7 +125,7 @@ impl<'a> Source<'a> {
         let exterior = std::iter::once(region.exterior());
         let rings: Vec<Vec<DVec2>> = exterior
             .chain(region.interiors())
-            .map(|ring| simplified(&ring_points(ring), tolerance, settings.grid, least_side))
+            .map(|ring| rounded(&simplified(&ring_points(ring), tolerance), settings.grid, least_side))
             .collect();
         let kept = rings.first().is_some_and(|ring| ring.len() >= 3);
         kept.then_some(Piece { source: self, region, rings })
@@ -149,11 +159,45 @@ fn thin_pieces<'a>(polygon: &'a Polygon<f64>, settings: &SliceSettings) -> Vec<P
     Vec::new()
 }
 
-/// The parts of an outline that lie farther from the inset than the bead of the first wall reaches.
-fn lost_branches(layer: usize, polygon: &Polygon<f64>, inset: MultiPolygon<f64>, settings: &SliceSettings) -> Vec<Loss> {
+/// The outline with the vertices left out that change nothing.
+fn simpler(polygon: &Polygon<f64>, width: f64) -> Polygon<f64> {
+    let rings: Vec<Vec<DVec2>> = std::iter::once(polygon.exterior())
+        .chain(polygon.interiors())
+        .map(|ring| simplified(&ring_points(ring), OUTLINE_TOLERANCE * width))
+        .collect();
+    if rings[0].len() < 3 { polygon.clone() } else { polygon_through(&rings) }
+}
+
+/// Whether every point of the outline has a wall near, so that no branch of it can be lost.
+fn comes_near(polygon: &Polygon<f64>, pieces: &[&Piece<'_>], width: f64) -> bool {
+    let sides: Vec<(DVec2, DVec2)> = pieces
+        .iter()
+        .flat_map(|piece| &piece.rings)
+        .flat_map(|ring| ring.iter().copied().zip(ring.iter().copied().cycle().skip(1)))
+        .collect();
+    let limit = BRANCH_DISTANCE * width;
+    // Walls follow their outline: the next point is near the side that the last was near.
+    let mut near = 0;
+    let mut is_near = |point: DVec2| {
+        let found = (0..sides.len())
+            .map(|k| (near + k) % sides.len())
+            .find(|&k| distance_to_side(point, sides[k].0, sides[k].1) <= limit);
+        near = found.unwrap_or(near);
+        found.is_some()
+    };
+    std::iter::once(polygon.exterior()).chain(polygon.interiors()).flat_map(|ring| ring.lines()).all(|line| {
+        let (from, to) = (DVec2::new(line.start.x, line.start.y), DVec2::new(line.end.x, line.end.y));
+        let parts = (from.distance(to) / (0.5 * width)).ceil().max(1.0);
+        (0..parts as usize).all(|k| is_near(from.lerp(to, k as f64 / parts)))
+    })
+}
+
+/// The parts of an outline that lie farther from its first wall than the bead reaches.
+fn lost_branches(layer: usize, polygon: &Polygon<f64>, pieces: &[&Piece<'_>], settings: &SliceSettings) -> Vec<Loss> {
     let width = settings.width;
     let reach = (0.5 + BRANCH_SLACK) * width;
-    let covered = region::dilation(&inset, reach, 0.5 * BRANCH_SLACK * width);
+    let printed = MultiPolygon(pieces.iter().map(|piece| polygon_through(&piece.rings)).collect());
+    let covered = region::dilation(&printed, reach, 0.5 * BRANCH_SLACK * width);
     let missed = MultiPolygon(vec![polygon.clone()]).difference(&covered);
     missed
         .iter()
