@@ -62,7 +62,9 @@ impl PathGraph {
     /// # Ok::<(), argil_graph::GraphError>(())
     /// ```
     pub fn build(
-        space: &FreeSpace<'_>, nodes: &Nodes<'_>, weight: impl FnMut(DVec2, DVec2) -> f64,
+        space: &FreeSpace<'_>,
+        nodes: &Nodes<'_>,
+        weight: impl FnMut(DVec2, DVec2) -> f64,
     ) -> Result<PathGraph, GraphError> {
         if !nodes.spacing.is_finite() || nodes.spacing < 0.0 {
             return Err(GraphError::Spacing { spacing: nodes.spacing });
@@ -312,7 +314,9 @@ fn edges_in(triangle: &Triangle, numbering: &Numbering<'_>) -> Vec<(u32, u32)> {
                 edges.extend(numbering.node(other).map(|node| (attachment, node)));
             }
         }
-        edges.extend([portal_after(before), portal_after(after)].into_iter().flatten().map(|p| (attachment, p)));
+        edges.extend(
+            [portal_after(before), portal_after(after)].into_iter().flatten().map(|p| (attachment, p)),
+        );
         if is_ear {
             edges.extend(portal_after(k + 1).map(|p| (attachment, p)));
         }

@@ -1,6 +1,9 @@
+use std::sync::OnceLock;
+
 use glam::DVec2;
 
 use crate::GraphError;
+use crate::hierarchy::Hierarchy;
 
 /// A plane graph of paths between walls, with flat, index-ordered storage.
 ///
@@ -16,6 +19,8 @@ pub struct PathGraph {
     offsets: Vec<u32>,
     targets: Vec<u32>,
     weights: Vec<f64>,
+    /// Made by the first search.
+    hierarchy: OnceLock<Hierarchy>,
 }
 
 impl PathGraph {
@@ -47,7 +52,10 @@ impl PathGraph {
     /// # Ok::<(), argil_graph::GraphError>(())
     /// ```
     pub fn from_edges(
-        positions: Vec<DVec2>, attachments: &[u32], terminals: &[u32], edges: &[(u32, u32, f64)],
+        positions: Vec<DVec2>,
+        attachments: &[u32],
+        terminals: &[u32],
+        edges: &[(u32, u32, f64)],
     ) -> Result<PathGraph, GraphError> {
         let count = positions.len();
         if count >= u32::MAX as usize || edges.len() > (u32::MAX / 2) as usize {
@@ -68,7 +76,8 @@ impl PathGraph {
             }
             check_weight(positions[a as usize], positions[b as usize], weight)?;
         }
-        let mut sorted: Vec<(u32, u32, f64)> = edges.iter().map(|&(a, b, w)| (a.min(b), a.max(b), w)).collect();
+        let mut sorted: Vec<(u32, u32, f64)> =
+            edges.iter().map(|&(a, b, w)| (a.min(b), a.max(b), w)).collect();
         sorted.sort_unstable_by(|p, q| (p.0, p.1).cmp(&(q.0, q.1)).then(p.2.total_cmp(&q.2)));
         sorted.dedup_by_key(|edge| (edge.0, edge.1));
         let mut is_attachment = vec![false; count];
@@ -82,8 +91,12 @@ impl PathGraph {
     /// A graph whose first `attachment_count` vertices are the attachments, from distinct pairs `a < b` in
     /// ascending order.
     pub(crate) fn from_pairs(
-        positions: Vec<DVec2>, attachment_count: u32, attachments: Vec<u32>, terminals: Vec<u32>,
-        pairs: &[(u32, u32)], mut weight: impl FnMut(DVec2, DVec2) -> f64,
+        positions: Vec<DVec2>,
+        attachment_count: u32,
+        attachments: Vec<u32>,
+        terminals: Vec<u32>,
+        pairs: &[(u32, u32)],
+        mut weight: impl FnMut(DVec2, DVec2) -> f64,
     ) -> Result<PathGraph, GraphError> {
         if pairs.len() > (u32::MAX / 2) as usize {
             return Err(GraphError::TooLarge { count: pairs.len() });
@@ -98,7 +111,10 @@ impl PathGraph {
     }
 
     fn assemble(
-        positions: Vec<DVec2>, is_attachment: Vec<bool>, attachments: Vec<u32>, terminals: Vec<u32>,
+        positions: Vec<DVec2>,
+        is_attachment: Vec<bool>,
+        attachments: Vec<u32>,
+        terminals: Vec<u32>,
         edges: &[(u32, u32, f64)],
     ) -> PathGraph {
         let mut offsets = vec![0_u32; positions.len() + 1];
@@ -120,7 +136,12 @@ impl PathGraph {
             next[from as usize] += 1;
             (targets[slot], weights[slot]) = (to, w);
         }
-        PathGraph { positions, is_attachment, attachments, terminals, offsets, targets, weights }
+        let hierarchy = OnceLock::new();
+        PathGraph { positions, is_attachment, attachments, terminals, offsets, targets, weights, hierarchy }
+    }
+
+    pub(crate) fn hierarchy(&self) -> &Hierarchy {
+        self.hierarchy.get_or_init(|| Hierarchy::new(self))
     }
 
     /// How many vertices there are; they are numbered from zero.

@@ -4,13 +4,16 @@
 mod construction;
 mod error;
 mod graph;
+mod hierarchy;
 mod matrix;
-mod search;
+mod path_finder;
 mod space;
+mod sweeps;
 mod thinning;
 mod triangulation;
 
 pub use error::{GraphError, PointKind};
 pub use graph::PathGraph;
 pub use matrix::DistanceMatrix;
+pub use path_finder::PathFinder;
 pub use space::{FreeSpace, Nodes};

@@ -6,9 +6,26 @@ pub struct DistanceMatrix {
 }
 
 impl DistanceMatrix {
-    pub(crate) fn from_rows(count: usize, lengths: Vec<f64>) -> DistanceMatrix {
-        debug_assert_eq!(lengths.len(), count * count);
-        DistanceMatrix { count, lengths }
+    /// A matrix in which nothing is reached from anywhere.
+    pub(crate) fn unreached(count: usize) -> DistanceMatrix {
+        DistanceMatrix { count, lengths: vec![f64::INFINITY; count * count] }
+    }
+
+    /// Sets the length between two entries of the list, which must exist, in both directions.
+    #[inline]
+    pub(crate) fn set(&mut self, i: usize, j: usize, length: f64) {
+        self.lengths[i * self.count + j] = length;
+        self.lengths[j * self.count + i] = length;
+    }
+
+    /// Makes the entry `copy` of the list the same as the entry `original`.
+    pub(crate) fn duplicate(&mut self, original: usize, copy: usize) {
+        for k in 0..self.count {
+            let length = self.get(original, k);
+            self.set(copy, k, length);
+        }
+        self.set(copy, original, 0.0);
+        self.set(copy, copy, 0.0);
     }
 
     /// How many vertices the list had.

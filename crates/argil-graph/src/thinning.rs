@@ -19,8 +19,11 @@ const MOST_CELLS: f64 = 4096.0;
 /// # Complexity
 /// O((n + m) log n) for evenly spread points, with m the number of grid columns that the walls pass.
 pub(crate) fn thin(
-    steiner: &[DVec2], vertices: impl Iterator<Item = DVec2>, walls: impl Iterator<Item = (DVec2, DVec2)>,
-    within: Option<(DVec2, DVec2)>, spacing: f64,
+    steiner: &[DVec2],
+    vertices: impl Iterator<Item = DVec2>,
+    walls: impl Iterator<Item = (DVec2, DVec2)>,
+    within: Option<(DVec2, DVec2)>,
+    spacing: f64,
 ) -> Vec<DVec2> {
     let spacing = spacing.max(LEAST_SPACING);
     let clearance = 0.5 * spacing;
@@ -64,8 +67,7 @@ impl Cells {
         let cell = spacing.max((high - low).max_element() / MOST_CELLS);
         let mut cells = Cells { origin: low, cell, last_column: 0, sorted: Vec::new() };
         cells.last_column = cells.column(high.x);
-        cells.sorted =
-            points.iter().zip(0..).map(|(p, k)| (cells.column(p.x), cells.row(p.y), k)).collect();
+        cells.sorted = points.iter().zip(0..).map(|(p, k)| (cells.column(p.x), cells.row(p.y), k)).collect();
         cells.sorted.sort_unstable();
         Some(cells)
     }
@@ -88,7 +90,8 @@ impl Cells {
 
     /// Visits every point in the square of half side `radius` round `p`, and some more.
     fn visit_square(&self, p: DVec2, radius: f64, mut visit: impl FnMut(usize)) {
-        let (first, last) = (self.column(p.x - radius).max(0), self.column(p.x + radius).min(self.last_column));
+        let (first, last) =
+            (self.column(p.x - radius).max(0), self.column(p.x + radius).min(self.last_column));
         for column in first..=last {
             self.visit_rows(column, p.y - radius, p.y + radius, &mut visit);
         }
@@ -121,6 +124,7 @@ impl Cells {
 fn distance_to_segment(p: DVec2, start: DVec2, end: DVec2) -> f64 {
     let along = end - start;
     let length_squared = along.length_squared();
-    let t = if length_squared > 0.0 { ((p - start).dot(along) / length_squared).clamp(0.0, 1.0) } else { 0.0 };
+    let t =
+        if length_squared > 0.0 { ((p - start).dot(along) / length_squared).clamp(0.0, 1.0) } else { 0.0 };
     p.distance(start + t * along)
 }

@@ -81,7 +81,9 @@ pub(crate) fn triangulate(points: &[DVec2], loops: &Loops) -> Result<Vec<Triangl
         match (loop_of.get(a), loop_of.get(b)) {
             (None, _) => return Err(TriangulationFailure::Conflict(Conflict::OnWall(a))),
             (_, None) => return Err(TriangulationFailure::Conflict(Conflict::OnWall(b))),
-            (Some(&k), Some(&j)) if k == j && adjacent(&loops.ranges[k], a, b) => sides[k] = Some((left, right)),
+            (Some(&k), Some(&j)) if k == j && adjacent(&loops.ranges[k], a, b) => {
+                sides[k] = Some((left, right));
+            }
             _ => return Err(TriangulationFailure::Conflict(Conflict::Walls(a, b))),
         }
     }
@@ -117,7 +119,11 @@ pub(crate) enum TriangulationFailure {
 impl TriangulationFailure {
     /// The error for a caller who knows the points by another numbering: `terminal` gives the index of the
     /// terminal for a point that is no wall vertex.
-    pub(crate) fn into_error(self, points: &[DVec2], terminal: impl Fn(usize) -> Option<usize>) -> GraphError {
+    pub(crate) fn into_error(
+        self,
+        points: &[DVec2],
+        terminal: impl Fn(usize) -> Option<usize>,
+    ) -> GraphError {
         let failed = GraphError::Triangulation { points: points.len() };
         match self {
             TriangulationFailure::Conflict(Conflict::Walls(a, b)) => match (points.get(a), points.get(b)) {
@@ -144,7 +150,10 @@ fn adjacent(range: &Range<usize>, a: usize, b: usize) -> bool {
 
 /// For every component root whether it is free space: inside the outer loop and inside no hole.
 fn free_components(
-    components: &mut Components, sides: &[Option<(usize, usize)>], loops: &Loops, outer_face: usize,
+    components: &mut Components,
+    sides: &[Option<(usize, usize)>],
+    loops: &Loops,
+    outer_face: usize,
 ) -> Vec<bool> {
     let pairs: Vec<_> =
         sides.iter().map(|side| side.map(|(l, r)| (components.root(l), components.root(r)))).collect();
