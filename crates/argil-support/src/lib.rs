@@ -1,1 +1,17 @@
 //! Which spans of a deposition path hang in the air, and the fewest points that hold them.
+#![forbid(unsafe_code)]
+
+mod coverage;
+mod criterion;
+mod hairpin;
+mod place_supports;
+mod placement;
+mod run;
+mod sharing;
+mod stride;
+
+pub use argil_curve::{ArcSpan, ClosedCurve, DVec2, Segment, SegmentIndex};
+pub use criterion::{Criterion, unsupported_spans};
+pub use place_supports::{SupportPoint, place_supports};
+pub use placement::Placement;
+pub use stride::stride_supports;
