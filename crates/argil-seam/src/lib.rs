@@ -1,1 +1,13 @@
 //! One start point a layer, so that the strand climbs in short steps that cross nothing.
+#![forbid(unsafe_code)]
+
+mod candidates;
+mod chain;
+mod error;
+mod nearest;
+mod step;
+
+pub use argil_curve::{ClosedCurve, DVec2};
+pub use chain::{SeamSettings, seam_chain};
+pub use error::SeamError;
+pub use nearest::nearest_chain;

@@ -1,0 +1,111 @@
+//! The places where a layer may start.
+
+use argil_curve::{ClosedCurve, DVec2};
+
+/// Candidates of one layer are never more than this, whatever the spacing; the answer would be no better.
+const MOST_CANDIDATES: f64 = 1e6;
+
+/// Cells of the grid for each candidate. A candidate's strand fills few cells, so most are empty; their number bounds
+/// the time to clear them.
+const CELLS_PER_CANDIDATE: usize = 8;
+
+/// Evenly spaced places along a cycle.
+pub(crate) struct Candidates {
+    pub(crate) points: Vec<DVec2>,
+    /// Arc length from one to the next, mm.
+    pub(crate) spacing: f64,
+}
+
+impl Candidates {
+    pub(crate) fn along(cycle: &ClosedCurve, spacing: f64) -> Self {
+        let points = cycle.resampled(spacing.max(cycle.length() / MOST_CANDIDATES));
+        let spacing = cycle.length() / points.len() as f64;
+        Self { points, spacing }
+    }
+
+    /// Arc length of candidate `k`.
+    pub(crate) fn arc(&self, k: usize) -> f64 {
+        k as f64 * self.spacing
+    }
+}
+
+/// A start of the layer below with the cost of the cheapest chain that ends there.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Reached {
+    pub(crate) point: DVec2,
+    pub(crate) cost: f64,
+    pub(crate) candidate: u32,
+}
+
+/// The starts of one layer that some chain reaches, sorted into cells, row by row, so that the starts in a run of cells
+/// lie side by side in memory.
+pub(crate) struct ReachedGrid {
+    origin: DVec2,
+    cell: f64,
+    columns: usize,
+    rows: usize,
+    offsets: Vec<u32>,
+    reached: Vec<Reached>,
+}
+
+impl ReachedGrid {
+    /// A grid over the candidates whose cost is finite, for queries of radius `reach`.
+    pub(crate) fn over(points: &[DVec2], costs: &[f64], reach: f64) -> Self {
+        let starts = || points.iter().zip(costs).enumerate().filter(|(_, (_, cost))| cost.is_finite());
+        let (mut low, mut high, mut count) = (DVec2::INFINITY, DVec2::NEG_INFINITY, 0);
+        for (_, (&point, _)) in starts() {
+            low = low.min(point);
+            high = high.max(point);
+            count += 1;
+        }
+        if count == 0 {
+            let origin = DVec2::ZERO;
+            return Self { origin, cell: 1.0, columns: 1, rows: 1, offsets: vec![0, 0], reached: Vec::new() };
+        }
+        // Half the radius: five rows of cells cover a query and little beyond it.
+        let most = (CELLS_PER_CANDIDATE * count) as f64;
+        let extent = high - low;
+        let mut cell = (reach / 2.0).max(extent.max_element() / most).max(f64::MIN_POSITIVE);
+        let cells = |cell: f64| (extent / cell).floor() + DVec2::ONE;
+        while cells(cell).element_product() > most {
+            cell *= 1.25;
+        }
+        let (columns, rows) = (cells(cell).x as usize, cells(cell).y as usize);
+        let cell_of = |p: DVec2| {
+            let at = (p - low) / cell;
+            (at.y as usize).min(rows - 1) * columns + (at.x as usize).min(columns - 1)
+        };
+        let mut offsets = vec![0_u32; columns * rows + 1];
+        for (_, (&point, _)) in starts() {
+            offsets[cell_of(point) + 1] += 1;
+        }
+        for k in 1..offsets.len() {
+            offsets[k] += offsets[k - 1];
+        }
+        let mut next = offsets.clone();
+        let mut reached = vec![Reached { point: DVec2::ZERO, cost: 0.0, candidate: 0 }; count];
+        for (k, (&point, &cost)) in starts() {
+            let slot = &mut next[cell_of(point)];
+            reached[*slot as usize] = Reached { point, cost, candidate: k as u32 };
+            *slot += 1;
+        }
+        Self { origin: low, cell, columns, rows, offsets, reached }
+    }
+
+    /// Visits every start in the cells within `radius` of `p`; the caller measures.
+    #[inline]
+    pub(crate) fn for_each_near(&self, p: DVec2, radius: f64, mut visit: impl FnMut(&Reached)) {
+        let low = (p - radius - self.origin) / self.cell;
+        let high = (p + radius - self.origin) / self.cell;
+        if !(high.x >= 0.0 && high.y >= 0.0 && low.x < self.columns as f64 && low.y < self.rows as f64) {
+            return;
+        }
+        // Casts saturate, so what lies before the grid begins at its first cell.
+        let (west, east) = (low.x as usize, (high.x as usize).min(self.columns - 1));
+        for row in low.y as usize..=(high.y as usize).min(self.rows - 1) {
+            let first = self.offsets[row * self.columns + west] as usize;
+            let last = self.offsets[row * self.columns + east + 1] as usize;
+            self.reached[first..last].iter().for_each(&mut visit);
+        }
+    }
+}

@@ -1,0 +1,34 @@
+//! Why there is no chain of start points.
+
+use argil_curve::DVec2;
+
+/// What keeps a stack of cycles from being one strand.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SeamError {
+    /// A setting is not finite, or not positive where it must be.
+    #[error("seam setting `{name}` cannot be {value}")]
+    Setting {
+        /// Name of the field of [`SeamSettings`](crate::SeamSettings).
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// The extra cost forbids every start of the lowest layer.
+    #[error("the cost forbids every start of the lowest layer")]
+    NoStart,
+    /// No start of a layer is held and within reach of a possible start of the layer below by a step that crosses nothing.
+    #[error(
+        "no start of layer {layer} can be reached from layer {}: its path passes ({:.3}, {:.3}) at {gap:.3} mm",
+        layer - 1, below.x, below.y
+    )]
+    NoStep {
+        /// Index of the layer, from 0 at the bottom, that cannot be reached.
+        layer: usize,
+        /// The possible start of the layer below that is nearest to the layer's cycle, mm.
+        below: DVec2,
+        /// Its distance from the cycle, mm. When this is within reach, the starts near it are not held, forbidden by the
+        /// cost, or only to be had by crossing the cycle.
+        gap: f64,
+    },
+}

@@ -1,0 +1,89 @@
+//! Which steps from layer to layer are allowed.
+
+use argil_curve::{ClosedCurve, Segment, SegmentIndex};
+
+/// A step and a strand nearer than this touch, mm: twice the grid of the printed output, so that rounding both to the
+/// grid cannot make them cross.
+const TOUCH: f64 = 2e-4;
+
+/// A point this near a segment lies on it, mm; only rounding parts them.
+const ON_STRAND: f64 = 1e-9;
+
+/// The arc may be longer than the straight way by this and still count as running straight along it, mm.
+const STRAIGHT: f64 = 1e-3;
+
+/// Whether the step that ends on `cycle` at arc length `s` is clear of every segment of the cycle; O(n).
+pub(crate) fn is_clear(step: &Segment, s: f64, cycle: &ClosedCurve) -> bool {
+    let low = step.start.min(step.end) - TOUCH;
+    let high = step.start.max(step.end) + TOUCH;
+    step.length() <= ON_STRAND
+        || !cycle.segments().enumerate().any(|(k, strand)| {
+            let beside = strand.start.min(strand.end).cmpgt(high).any()
+                || strand.start.max(strand.end).cmplt(low).any();
+            !beside && blocks(step, s, cycle, k, &strand)
+        })
+}
+
+/// The same by an index over the segments of `cycle`, in order.
+pub(crate) fn is_clear_by(index: &SegmentIndex, step: &Segment, s: f64, cycle: &ClosedCurve) -> bool {
+    let mut clear = true;
+    if step.length() > ON_STRAND {
+        index.for_each_near(*step, TOUCH, |k, strand| clear = clear && !blocks(step, s, cycle, k, &strand));
+    }
+    clear
+}
+
+/// Whether segment `k` of the cycle is in the way of the step. A step may touch the cycle at its own end, and it may run
+/// along the strand that it ends on; it may neither cross nor touch it elsewhere.
+fn blocks(step: &Segment, s: f64, cycle: &ClosedCurve, k: usize, strand: &Segment) -> bool {
+    let end = cycle.on_segment(k, step.end);
+    if end.distance <= ON_STRAND {
+        return cycle.arc_gap(end.s, s) > STRAIGHT;
+    }
+    if step.crosses(strand) {
+        return true;
+    }
+    let touching = [strand.start, strand.end]
+        .map(|p| (step.distance(p), p))
+        .into_iter()
+        .chain([step.start, step.end].map(|p| (strand.distance(p), strand.nearest(p).point)))
+        .reduce(|a, b| if b.0 < a.0 { b } else { a });
+    touching.is_some_and(|(distance, contact)| {
+        let along = cycle.arc_gap(cycle.on_segment(k, contact).s, s);
+        distance <= TOUCH && along > contact.distance(step.end) + STRAIGHT
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use argil_curve::DVec2;
+
+    fn clear(from: (f64, f64), s: f64) -> bool {
+        // A hairpin 1 mm wide: out along y = 0, back along y = 1.
+        let points = [(0.0, 0.0), (10.0, 0.0), (10.0, 1.0), (0.0, 1.0)].map(DVec2::from);
+        let cycle = ClosedCurve::new(points.to_vec()).unwrap();
+        let step = Segment::new(from.into(), cycle.point_at(s));
+        let index = SegmentIndex::of_curves([&cycle], 1.0);
+        let answer = is_clear(&step, s, &cycle);
+        assert_eq!(answer, is_clear_by(&index, &step, s, &cycle));
+        answer
+    }
+
+    #[test]
+    fn a_step_touches_only_where_it_ends() {
+        assert!(clear((5.0, -0.5), 5.0), "from outside");
+        assert!(clear((5.0, 0.5), 5.0), "from inside");
+        assert!(!clear((5.0, 1.5), 5.0), "across the other strand");
+        assert!(!clear((5.0, 1.0), 5.0), "from the other strand");
+        assert!(!clear((10.5, -0.5), 12.0), "through the corner to the other strand");
+    }
+
+    #[test]
+    fn a_step_may_run_along_its_own_strand() {
+        assert!(clear((4.5, 0.0), 5.0) && clear((5.5, 0.0), 5.0));
+        assert!(clear((10.5, 0.0), 9.9), "over a corner, in line with the strand");
+        assert!(!clear((9.5, 0.0), 10.5), "from before the corner to behind it");
+        assert!(clear((5.0, 0.0), 5.0));
+    }
+}
