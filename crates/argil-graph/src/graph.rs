@@ -190,12 +190,20 @@ impl PathGraph {
     /// The neighbours of a vertex in ascending order, each with the weight of the edge to it; none for a
     /// vertex that does not exist.
     pub fn neighbours(&self, v: u32) -> impl Iterator<Item = (u32, f64)> + '_ {
+        let (targets, weights) = self.adjacency(v);
+        targets.iter().copied().zip(weights.iter().copied())
+    }
+
+    /// The neighbours of a vertex and the weights of the edges to them, side by side.
+    pub(crate) fn adjacency(&self, v: u32) -> (&[u32], &[f64]) {
         let v = v as usize;
-        let slots = match (self.offsets.get(v), self.offsets.get(v.saturating_add(1))) {
-            (Some(&start), Some(&end)) => start as usize..end as usize,
-            _ => 0..0,
-        };
-        self.targets[slots.clone()].iter().copied().zip(self.weights[slots].iter().copied())
+        match (self.offsets.get(v), self.offsets.get(v.saturating_add(1))) {
+            (Some(&start), Some(&end)) => {
+                let slots = start as usize..end as usize;
+                (&self.targets[slots.clone()], &self.weights[slots])
+            }
+            _ => (&[], &[]),
+        }
     }
 }
 

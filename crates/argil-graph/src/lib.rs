@@ -1,4 +1,4 @@
-//! Triangulated free space between walls, with exact shortest paths and distances.
+#![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
 mod construction;
@@ -11,9 +11,13 @@ mod space;
 mod sweeps;
 mod thinning;
 mod triangulation;
+#[cfg(feature = "petgraph")]
+mod visit;
 
 pub use error::{GraphError, PointKind};
 pub use graph::PathGraph;
 pub use matrix::DistanceMatrix;
 pub use path_finder::PathFinder;
 pub use space::{FreeSpace, Nodes};
+#[cfg(feature = "petgraph")]
+pub use visit::{Edges, SeenFrom};
