@@ -126,6 +126,9 @@ impl ClosedCurve {
 
     /// The same place on the curve with its arc length brought into one turn; 0 for what is not finite.
     pub fn wrapped(&self, s: f64) -> f64 {
+        if s >= 0.0 && s < self.length() {
+            return s;
+        }
         let s = s.rem_euclid(self.length());
         // rem_euclid of a tiny negative number rounds up to the length itself.
         if s < self.length() { s } else { 0.0 }
@@ -178,7 +181,7 @@ impl ClosedCurve {
 
     /// Arc length between `s` and `t` the shorter way round, mm.
     pub fn arc_gap(&self, s: f64, t: f64) -> f64 {
-        let ahead = self.wrapped(s - t);
+        let ahead = (self.wrapped(s) - self.wrapped(t)).abs();
         ahead.min(self.length() - ahead)
     }
 

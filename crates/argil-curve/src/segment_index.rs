@@ -27,6 +27,8 @@ const CELLS_PER_SEGMENT: usize = 4;
 #[derive(Clone, Debug)]
 pub struct SegmentIndex {
     segments: Vec<Segment>,
+    /// The cells of each segment; `None` for those that are left out.
+    footprints: Vec<Option<Footprint>>,
     grid: Grid,
     /// Items of cell c are `items[offsets[c]..offsets[c + 1]]`, in ascending order.
     offsets: Vec<u32>,
@@ -53,22 +55,24 @@ impl SegmentIndex {
     /// O(n + cells covered by the segments).
     pub fn new(segments: Vec<Segment>, cell: f64) -> Self {
         let grid = Grid::over(&segments, cell);
-        let mut offsets = vec![0_u32; grid.columns * grid.rows + 1];
-        for segment in segments.iter().filter(|s| is_indexable(s)) {
-            grid.for_each_cell(segment, 0.0, |cell| offsets[cell + 1] += 1);
+        let footprints: Vec<Option<Footprint>> =
+            segments.iter().map(|s| if is_indexable(s) { grid.footprint(s, 0.0) } else { None }).collect();
+        let mut offsets = vec![0_u32; grid.columns as usize * grid.rows as usize + 1];
+        for (segment, footprint) in segments.iter().zip(&footprints) {
+            grid.for_each_cell(segment, footprint, |cell| offsets[cell + 1] += 1);
         }
         for cell in 1..offsets.len() {
             offsets[cell] += offsets[cell - 1];
         }
         let mut items = vec![0_u32; offsets[offsets.len() - 1] as usize];
         let mut next = offsets.clone();
-        for (k, segment) in segments.iter().enumerate().filter(|(_, s)| is_indexable(s)) {
-            grid.for_each_cell(segment, 0.0, |cell| {
+        for (k, (segment, footprint)) in segments.iter().zip(&footprints).enumerate() {
+            grid.for_each_cell(segment, footprint, |cell| {
                 items[next[cell] as usize] = k as u32;
                 next[cell] += 1;
             });
         }
-        Self { segments, grid, offsets, items }
+        Self { segments, footprints, grid, offsets, items }
     }
 
     /// An index over all segments of `curves`, in order.
@@ -115,23 +119,47 @@ impl SegmentIndex {
             return;
         }
         let radius = radius.min(LARGEST);
-        let Some((first_row, last_row)) = self.grid.rows_of(&segment, radius) else { return };
-        for row in first_row..=last_row {
-            let Some((first, last)) = self.grid.columns_of(&segment, row, radius) else { continue };
+        let Some(asked) = self.grid.footprint(&segment, radius) else { return };
+        for row in asked.south..=asked.north {
+            let Some((first, last)) = self.grid.columns_of(&segment, &asked, row, radius) else { continue };
             for column in first..=last {
-                for &item in self.items_of(column, row) {
-                    let found = &self.segments[item as usize];
-                    if self.grid.first_shared(found, &segment, radius, first_row, row) == Some((column, row))
-                    {
-                        visit(item as usize, *found);
+                for &item in self.items_of(column as usize, row as usize) {
+                    let index = item as usize;
+                    let Some(stored) = &self.footprints[index] else { continue };
+                    // A segment is reported from the first cell, row by row, that it shares with the query.
+                    let first_shared = if stored.whole && asked.whole {
+                        column == stored.west.max(asked.west) && row == stored.south.max(asked.south)
+                    } else {
+                        let first = self.first_shared(index, stored, &segment, &asked, radius, row);
+                        first == Some((column, row))
+                    };
+                    if first_shared {
+                        visit(index, self.segments[index]);
                     }
                 }
             }
         }
     }
 
+    /// The first cell that a stored segment shares with a query, looked for in the rows up to `last_row`.
+    fn first_shared(
+        &self,
+        index: usize,
+        stored: &Footprint,
+        query: &Segment,
+        asked: &Footprint,
+        radius: f64,
+        last_row: u32,
+    ) -> Option<(u32, u32)> {
+        (stored.south.max(asked.south)..=last_row).find_map(|row| {
+            let (west, east) = self.grid.columns_of(&self.segments[index], stored, row, 0.0)?;
+            let (first, last) = self.grid.columns_of(query, asked, row, radius)?;
+            (west.max(first) <= east.min(last)).then_some((west.max(first), row))
+        })
+    }
+
     fn items_of(&self, column: usize, row: usize) -> &[u32] {
-        let cell = row * self.grid.columns + column;
+        let cell = row * self.grid.columns as usize + column;
         &self.items[self.offsets[cell] as usize..self.offsets[cell + 1] as usize]
     }
 
@@ -143,12 +171,12 @@ impl SegmentIndex {
         }
         let (column, row) = self.grid.cell_at(p);
         let mut best: Option<NearestSegment> = None;
+        let (column_count, row_count) = (self.grid.columns as usize, self.grid.rows as usize);
         let mut ring = 0;
         loop {
-            let (west, east) =
-                (column.checked_sub(ring), Some(column + ring).filter(|&c| c < self.grid.columns));
-            let (south, north) = (row.checked_sub(ring), Some(row + ring).filter(|&r| r < self.grid.rows));
-            let columns = west.unwrap_or(0)..=east.unwrap_or(self.grid.columns - 1);
+            let (west, east) = (column.checked_sub(ring), Some(column + ring).filter(|&c| c < column_count));
+            let (south, north) = (row.checked_sub(ring), Some(row + ring).filter(|&r| r < row_count));
+            let columns = west.unwrap_or(0)..=east.unwrap_or(column_count - 1);
             for row in south.into_iter().chain(north.filter(|_| ring > 0)) {
                 for column in columns.clone() {
                     self.improve(p, limit, column, row, &mut best);
@@ -156,7 +184,7 @@ impl SegmentIndex {
             }
             if ring > 0 {
                 let above = south.map_or(0, |s| s + 1);
-                let below = north.unwrap_or(self.grid.rows);
+                let below = north.unwrap_or(row_count);
                 for column in west.into_iter().chain(east) {
                     for row in above..below {
                         self.improve(p, limit, column, row, &mut best);
@@ -195,16 +223,30 @@ fn is_indexable(segment: &Segment) -> bool {
 
 /// The cells: where they lie and which of them a segment, or all within a radius of it, touches.
 ///
-/// A segment touches one run of columns in each row. Both the filling and the asking use that run, so a segment
-/// that lies within the radius always shares a cell with the query.
+/// Both the filling and the asking use the same footprints, so a segment that lies within the radius always shares a
+/// cell with the query.
 #[derive(Clone, Debug)]
 struct Grid {
     origin: DVec2,
     cell: f64,
-    columns: usize,
-    rows: usize,
-    /// Added on every side of a run so that rounding loses no cell, mm.
+    columns: u32,
+    rows: u32,
+    /// Added on every side of a footprint so that rounding loses no cell, mm.
     slack: f64,
+}
+
+/// Footprints of up to this many cells take their whole rectangle; larger ones only a run of columns in each row, lest
+/// a long diagonal fill a square.
+const SMALL: u32 = 16;
+
+/// The cells that a segment touches: within a rectangle, all of it or one run of columns a row.
+#[derive(Clone, Copy, Debug)]
+struct Footprint {
+    west: u32,
+    east: u32,
+    south: u32,
+    north: u32,
+    whole: bool,
 }
 
 impl Grid {
@@ -231,37 +273,44 @@ impl Grid {
         }
         let count = cells(cell);
         let slack = 1e-9 * cell + 8.0 * f64::EPSILON * low.abs().max(high.abs()).max_element();
-        Self { origin: low, cell, columns: count.x as usize, rows: count.y as usize, slack }
+        Self { origin: low, cell, columns: count.x as u32, rows: count.y as u32, slack }
     }
 
     fn cell_at(&self, p: DVec2) -> (usize, usize) {
         // Float to integer casts saturate, so points far outside land in the border cells.
         let at = (p - self.origin) / self.cell;
-        ((at.x as usize).min(self.columns - 1), (at.y as usize).min(self.rows - 1))
+        ((at.x as u32).min(self.columns - 1) as usize, (at.y as u32).min(self.rows - 1) as usize)
     }
 
     /// The run of cells along one axis that meets the interval from `low` to `high`, measured from the origin.
-    fn run(&self, low: f64, high: f64, count: usize) -> Option<(usize, usize)> {
+    fn run(&self, low: f64, high: f64, count: u32) -> Option<(u32, u32)> {
         let (first, last) = (low / self.cell, high / self.cell);
-        if last < 0.0 || first >= count as f64 || first.is_nan() || last.is_nan() {
+        if last < 0.0 || first >= f64::from(count) || first.is_nan() || last.is_nan() {
             return None;
         }
-        Some((first as usize, (last as usize).min(count - 1)))
+        Some((first as u32, (last as u32).min(count - 1)))
     }
 
-    /// Rows that hold points within `radius` of the segment.
-    fn rows_of(&self, s: &Segment, radius: f64) -> Option<(usize, usize)> {
-        let (a, b) = (s.start.y - self.origin.y, s.end.y - self.origin.y);
+    /// The cells that hold points within `radius` of the segment; `None` when all lie outside the grid.
+    fn footprint(&self, s: &Segment, radius: f64) -> Option<Footprint> {
         let reach = radius + self.slack;
-        self.run(a.min(b) - reach, a.max(b) + reach, self.rows)
+        let low = s.start.min(s.end) - self.origin - reach;
+        let high = s.start.max(s.end) - self.origin + reach;
+        let (west, east) = self.run(low.x, high.x, self.columns)?;
+        let (south, north) = self.run(low.y, high.y, self.rows)?;
+        let whole = (u64::from(east - west) + 1) * (u64::from(north - south) + 1) <= u64::from(SMALL);
+        Some(Footprint { west, east, south, north, whole })
     }
 
-    /// Columns of `row` that hold points within `radius` of the segment.
-    fn columns_of(&self, s: &Segment, row: usize, radius: f64) -> Option<(usize, usize)> {
+    /// The columns of a footprint in one of its rows.
+    fn columns_of(&self, s: &Segment, footprint: &Footprint, row: u32, radius: f64) -> Option<(u32, u32)> {
+        if footprint.whole {
+            return Some((footprint.west, footprint.east));
+        }
         let reach = radius + self.slack;
         let (a, b) = (s.start - self.origin, s.end - self.origin);
-        let low = row as f64 * self.cell - reach;
-        let high = (row + 1) as f64 * self.cell + reach;
+        let low = f64::from(row) * self.cell - reach;
+        let high = (f64::from(row) + 1.0) * self.cell + reach;
         let rise = b.y - a.y;
         let (mut from, mut to) = (0.0, 1.0);
         if rise != 0.0 {
@@ -272,38 +321,22 @@ impl Grid {
         self.run(x.min(y) - reach, x.max(y) + reach, self.columns)
     }
 
-    fn for_each_cell(&self, s: &Segment, radius: f64, mut visit: impl FnMut(usize)) {
-        let Some((first, last)) = self.rows_of(s, radius) else { return };
-        for row in first..=last {
-            if let Some((west, east)) = self.columns_of(s, row, radius) {
-                (west..=east).for_each(|column| visit(row * self.columns + column));
+    fn for_each_cell(&self, s: &Segment, footprint: &Option<Footprint>, mut visit: impl FnMut(usize)) {
+        let Some(footprint) = footprint else { return };
+        for row in footprint.south..=footprint.north {
+            if let Some((west, east)) = self.columns_of(s, footprint, row, 0.0) {
+                (west..=east)
+                    .for_each(|column| visit(row as usize * self.columns as usize + column as usize));
             }
         }
-    }
-
-    /// The first cell, row by row, that both the stored segment and the query touch, looked for in the rows from
-    /// `first_row`, where the query begins, up to `last_row`. A stored segment is reported from there alone.
-    fn first_shared(
-        &self,
-        stored: &Segment,
-        query: &Segment,
-        radius: f64,
-        first_row: usize,
-        last_row: usize,
-    ) -> Option<(usize, usize)> {
-        let (start, _) = self.rows_of(stored, 0.0)?;
-        (start.max(first_row)..=last_row).find_map(|row| {
-            let (west, east) = self.columns_of(stored, row, 0.0)?;
-            let (first, last) = self.columns_of(query, row, radius)?;
-            (west.max(first) <= east.min(last)).then_some((west.max(first), row))
-        })
     }
 
     /// Least distance from `p` to the part of the grid outside the block of cells within `ring` of a cell, less
     /// the rounding; `None` when the block covers the grid.
     fn distance_beyond(&self, p: DVec2, column: usize, row: usize, ring: usize) -> Option<f64> {
         let p = p - self.origin;
-        let size = DVec2::new(self.columns as f64, self.rows as f64) * self.cell;
+        let (columns, rows) = (self.columns as usize, self.rows as usize);
+        let size = DVec2::new(columns as f64, rows as f64) * self.cell;
         let to_box = |low: DVec2, high: DVec2| (p - p.clamp(low, high)).length();
         let edge = |cells: usize| cells as f64 * self.cell;
         let mut least: Option<f64> = None;
@@ -314,13 +347,13 @@ impl Grid {
         if column > ring {
             consider(DVec2::ZERO, DVec2::new(edge(column - ring), size.y));
         }
-        if column + ring + 1 < self.columns {
+        if column + ring + 1 < columns {
             consider(DVec2::new(edge(column + ring + 1), 0.0), size);
         }
         if row > ring {
             consider(DVec2::ZERO, DVec2::new(size.x, edge(row - ring)));
         }
-        if row + ring + 1 < self.rows {
+        if row + ring + 1 < rows {
             consider(DVec2::new(0.0, edge(row + ring + 1)), size);
         }
         least
