@@ -1,0 +1,324 @@
+//! The audit itself: every measure, layer by layer.
+
+use crate::cycle::{CycleStart, Path, cycle_start, layers};
+use crate::motion::{Motion, motions};
+use crate::settings::Tolerance;
+use crate::strand::pieces;
+use crate::wanted::{Wanted, segment_index};
+use crate::{AuditError, AuditSettings, Figures, Finding, FindingKind, Report};
+use crate::{bead, contact, coverage, crossings, crowding, motion, passage, support, turns};
+use argil_curve::{DVec2, SegmentIndex};
+use argil_gcode::Program;
+use argil_slice::mesh::Mesh;
+use argil_slice::{SliceSettings, slice};
+use geo::{MultiPolygon, Translate};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Samples a layer may have: a kilometre of path at the usual step. More is a mistaken coordinate.
+const MOST_SAMPLES: f64 = 1e7;
+
+/// Measures the print that `program` makes against the model in `mesh`, by geometry alone.
+///
+/// The first layer of the file is compared with the mesh cut at half a layer above its lowest point, and so on upwards.
+/// Nothing is known of how the file was made. Beads are taken to lie along the moves, with the width of the
+/// settings, whatever the file extrudes. What is wrong with the print is in the report.
+///
+/// # Errors
+/// [`AuditError`] for settings that are no lengths, for a program that lays no clay or has coordinates beyond measure, and for a
+/// mesh that cannot be cut.
+///
+/// # Complexity
+/// Near linear in the length of the path by the step, plus the polygon operations on each layer's beads.
+///
+/// # Example
+/// ```
+/// use argil_audit::{AuditSettings, FindingKind, audit};
+/// # use argil_slice::mesh::Mesh;
+/// // A box of 20 × 20 × 1 mm: two layers of one square loop, half a bead inside.
+/// # let corners = (0..8).map(|k| [20.0 * f64::from(k & 1), 20.0 * f64::from(k >> 1 & 1), f64::from(k >> 2)]).collect();
+/// # let sides = vec![[0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4], [2, 6, 3], [3, 6, 7], [0, 4, 2], [2, 4, 6], [1, 3, 5], [3, 7, 5]];
+/// # let mesh = Mesh::new(corners, sides)?;
+/// let square = "G1 X19.25 E1\nG1 Y19.25 E1\nG1 X.75 E1\nG1 Y.75 E1\n";
+/// let text = format!("M83\nG0 X.75 Y.75 Z.5\n;LAYER:0\n{square};LAYER:1\nG1 Z1\n{square}");
+/// let report = audit(&argil_gcode::read_gcode(&text), &mesh, &AuditSettings::default())?;
+/// assert!(report.is_sound(), "{report}");
+///
+/// let hop = text.replace("G1 Z1\n", "G0 Z1 X19.25\nG0 X.75\n");
+/// let report = audit(&argil_gcode::read_gcode(&hop), &mesh, &AuditSettings::default())?;
+/// assert_eq!(report.falls_short()[0].figure, "transfer_moves");
+/// assert_eq!(report.findings_of(FindingKind::Transfer).next().unwrap().layer, 1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn audit(program: &Program, mesh: &Mesh, settings: &AuditSettings) -> Result<Report, AuditError> {
+    settings.checked()?;
+    let motions = motions(program, settings.layer_height);
+    let printed = layers(&motions);
+    let Some((&lowest, _)) = printed.first_key_value() else { return Err(AuditError::NothingExtruded) };
+    let outlines = outlines(mesh, settings)?;
+
+    let mut audit = Audit {
+        settings,
+        tolerance: Tolerance::for_width(settings.width),
+        figures: Figures { mesh_layers: outlines.len(), ..Figures::default() },
+        findings: unreadable_lines(program),
+        tally: Tally::default(),
+        below: None,
+    };
+    audit.continuity(&motions, &printed);
+    // One layer of the file for each of the mesh, and any more that the file has.
+    let of_mesh = (0..outlines.len()).map(|n| lowest.saturating_add_unsigned(n as u64));
+    let numbers: BTreeSet<i64> = of_mesh.chain(printed.keys().copied()).collect();
+    let empty = MultiPolygon::new(Vec::new());
+    for number in numbers {
+        let place = usize::try_from(number.saturating_sub(lowest)).ok();
+        let outline = place.and_then(|n| outlines.get(n)).unwrap_or(&empty);
+        let paths = printed.get(&number).map_or(&[][..], Vec::as_slice);
+        audit.layer(number, place, outline, paths)?;
+    }
+    Ok(audit.finished())
+}
+
+/// The model's outline on each layer, in the file's coordinates.
+fn outlines(mesh: &Mesh, settings: &AuditSettings) -> Result<Vec<MultiPolygon<f64>>, AuditError> {
+    // The slicer's own walls are none of the audit's business: it makes its own, in another way.
+    let cuts = SliceSettings {
+        layer_height: settings.layer_height,
+        width: settings.width,
+        grid: SliceSettings::default().grid.min(0.001 * settings.width),
+        walls: 1,
+        ..SliceSettings::default()
+    };
+    let [dx, dy] = settings.offset;
+    Ok(slice(mesh, &cuts)?.into_iter().map(|layer| layer.outline.translate(dx, dy)).collect())
+}
+
+fn unreadable_lines(program: &Program) -> Vec<Finding> {
+    let layer_at = |line: usize| {
+        let before = program.moves.partition_point(|m| m.line < line);
+        before.checked_sub(1).and_then(|k| program.moves[k].layer).unwrap_or(-1)
+    };
+    let lines = program.bad_lines.iter().map(|bad| bad.line);
+    lines
+        .map(|line| Finding {
+            kind: FindingKind::UnreadableLine,
+            layer: layer_at(line),
+            at: None,
+            measure: line as f64,
+        })
+        .collect()
+}
+
+/// Sums that are divided by one another at the end. Lengths in mm, areas in mm².
+#[derive(Debug, Default)]
+struct Tally {
+    wanted: f64,
+    missed: f64,
+    outline: f64,
+    uncovered: f64,
+    contact: f64,
+    contact_outside: f64,
+    crowded: f64,
+    roots: usize,
+    laid: f64,
+    swept: f64,
+    wall_laid: f64,
+    wall_swept: f64,
+}
+
+/// The highest layer so far that has a path: what the next one stands on.
+#[derive(Debug)]
+struct Below {
+    beads: SegmentIndex,
+    end: DVec2,
+}
+
+#[derive(Debug)]
+struct Audit<'a> {
+    settings: &'a AuditSettings,
+    tolerance: Tolerance,
+    figures: Figures,
+    findings: Vec<Finding>,
+    tally: Tally,
+    below: Option<Below>,
+}
+
+impl Audit<'_> {
+    fn find(&mut self, kind: FindingKind, layer: i64, at: Option<DVec2>, measure: f64) {
+        self.findings.push(Finding { kind, layer, at, measure });
+    }
+
+    fn continuity(&mut self, motions: &[Motion], printed: &BTreeMap<i64, Vec<Path>>) {
+        let continuity = motion::measure(motions, &mut self.findings);
+        let f = &mut self.figures;
+        f.bad_lines = self.findings.iter().filter(|found| found.kind == FindingKind::UnreadableLine).count();
+        f.transfer_moves = continuity.transfers;
+        f.transfer_mm = continuity.transfer_length;
+        f.retractions = continuity.retractions;
+        f.z_down_moves = continuity.moves_down;
+        f.flow_per_mm_median = continuity.flow.map(|[median, ..]| median);
+        f.flow_per_mm_p01_p99 = continuity.flow.map(|[_, low, high]| [low, high]);
+        f.layers = printed.len();
+        f.paths_per_layer_max = printed.values().map(Vec::len).max().unwrap_or(0);
+    }
+
+    fn layer(
+        &mut self,
+        number: i64,
+        place: Option<usize>,
+        outline: &MultiPolygon<f64>,
+        paths: &[Path],
+    ) -> Result<(), AuditError> {
+        let width = self.settings.width;
+        let wanted = Wanted::new(outline, self.settings, &self.tolerance);
+        self.affordable(&wanted, paths)?;
+        if let (Some(place), false) = (place, wanted.walls.is_empty()) {
+            self.figures.wanted_layers = self.figures.wanted_layers.max(place + 1);
+        }
+        let laid = segment_index(paths.iter().map(|path| path.points.as_slice()), width);
+        self.coverage(number, &wanted, &laid, paths.is_empty());
+        let Some(start) = cycle_start(paths, &self.tolerance) else { return Ok(()) };
+
+        for (k, path) in paths.iter().enumerate() {
+            let whole = start.closed && paths.len() == 1;
+            let step_up = if k == 0 { start.step_up } else { 0.0 };
+            self.path(number, path, &wanted, step_up, whole);
+        }
+        for wall in &wanted.walls {
+            self.tally.wall_laid += length(wall) * width;
+        }
+        self.tally.wall_swept += bead::swept_area(wanted.walls.iter().map(Vec::as_slice), width);
+        let crossings = crossings::crossings(paths, &start, &self.tolerance);
+        self.figures.self_crossings += crossings.len();
+        for at in crossings {
+            self.find(FindingKind::SelfCrossing, number, Some(at), 1.0);
+        }
+        let end = paths.last().and_then(|path| path.points.last()).copied().unwrap_or(start.at);
+        self.seam(number, paths.len(), &start, end);
+        self.below = Some(Below { beads: laid, end });
+        Ok(())
+    }
+
+    /// A coordinate gone wrong must not fill the memory with samples.
+    fn affordable(&self, wanted: &Wanted, paths: &[Path]) -> Result<(), AuditError> {
+        let path: f64 = paths.iter().map(|path| length(&path.points)).sum();
+        let rings: f64 = wanted.outlines.iter().chain(&wanted.walls).map(|ring| length(ring)).sum();
+        for (length, step) in [(path, self.settings.step), (rings, self.tolerance.outline_step)] {
+            if length.is_nan() || length > MOST_SAMPLES * step {
+                return Err(AuditError::TooLong { length, step });
+            }
+        }
+        Ok(())
+    }
+
+    fn coverage(&mut self, number: i64, wanted: &Wanted, laid: &SegmentIndex, is_missing: bool) {
+        let coverage = coverage::measure(wanted, laid, self.settings.width, &self.tolerance);
+        self.tally.wanted += coverage.wanted;
+        self.tally.missed += coverage.missed;
+        self.tally.outline += coverage.outline;
+        self.tally.uncovered += coverage.uncovered;
+        self.figures.model_missed_layers += coverage.missed_loops;
+        if is_missing && coverage.wanted > 0.0 {
+            self.find(FindingKind::MissingLayer, number, None, coverage.wanted);
+        } else {
+            for (at, length) in coverage.stretches {
+                self.find(FindingKind::MissedWall, number, Some(at), length);
+            }
+        }
+    }
+
+    /// Everything that is measured along one path.
+    fn path(&mut self, number: i64, path: &Path, wanted: &Wanted, step_up: f64, whole: bool) {
+        let AuditSettings { width, across, along, step, .. } = *self.settings;
+        let t = self.tolerance;
+        let pieces = pieces(path, wanted, step, &t);
+        if pieces.is_empty() {
+            return;
+        }
+        let sum = |of: &dyn Fn(&crate::strand::Piece) -> bool| -> f64 {
+            pieces.iter().filter(|p| of(p)).map(|p| p.length).sum()
+        };
+        let all = sum(&|_| true);
+        self.figures.path_mm += all;
+        self.figures.model_mm += sum(&|p| p.is_model);
+        self.figures.fill_mm += sum(&|p| p.is_fill && !p.is_model);
+        self.figures.nonmodel_mm += sum(&|p| p.is_nonmodel());
+        self.figures.inside_model_mm +=
+            sum(&|p| p.is_nonmodel() && p.side == crate::wanted::Side::Inside);
+
+        let contact = contact::measure(&pieces, width, t.root);
+        self.tally.roots += contact.roots;
+        self.tally.contact += contact.touching;
+        self.tally.contact_outside += contact.outside;
+        for (at, length) in contact.stretches {
+            self.find(FindingKind::Contact, number, Some(at), length);
+        }
+        let stride = (t.outline_step / step).round_ties_even().max(1.0) as usize;
+        self.tally.crowded += crowding::crowded(&pieces, &contact.apart, width, stride);
+
+        let passages = passage::passages(&pieces, t.passage);
+        self.figures.wall_crossings += passages.len();
+        for at in passages {
+            self.find(FindingKind::WallCrossing, number, Some(at), 1.0);
+        }
+        let turns = turns::sharp_turns(&path.points, wanted, &t);
+        self.figures.sharp_turns_nonmodel += turns.len();
+        for (at, angle) in turns {
+            self.find(FindingKind::SharpTurn, number, Some(at), angle);
+        }
+        if let Some(below) = &self.below {
+            let bridge = along + 2.0 * step;
+            let hanging = support::hanging(&pieces, &below.beads, across + t.held, bridge, step_up, whole);
+            self.figures.unsupported_spans += hanging.len();
+            for (at, length) in hanging {
+                self.figures.unsupported_mm += length;
+                self.figures.worst_unsupported_span_mm = self.figures.worst_unsupported_span_mm.max(length);
+                self.find(FindingKind::UnsupportedSpan, number, Some(at), length);
+            }
+        }
+        self.tally.laid += all * width;
+        self.tally.swept += bead::swept_area([path.points.as_slice()], width);
+    }
+
+    /// How the layer closes and how it follows the one below.
+    fn seam(&mut self, number: i64, paths: usize, start: &CycleStart, end: DVec2) {
+        if paths > 1 {
+            self.find(FindingKind::ManyPaths, number, None, paths as f64);
+        }
+        if !start.closed {
+            self.figures.open_layers += 1;
+            self.find(FindingKind::OpenLayer, number, Some(end), end.distance(start.at));
+        }
+        let Some(below) = &self.below else { return };
+        let gap = start.at.distance(below.end);
+        let beside = below.beads.distance(start.at);
+        self.figures.seam_gap_max_mm = self.figures.seam_gap_max_mm.max(gap);
+        if gap > self.tolerance.seam {
+            self.find(FindingKind::SeamGap, number, Some(start.at), gap);
+        }
+        if beside > self.settings.across + self.tolerance.start_held {
+            self.figures.seam_starts_unsupported += 1;
+            self.find(FindingKind::UnsupportedStart, number, Some(start.at), beside);
+        }
+    }
+
+    fn finished(self) -> Report {
+        let Self { settings, mut figures, findings, tally, .. } = self;
+        let share = |part: f64, whole: f64| part / whole.max(1e-9);
+        figures.material_ratio = share(figures.nonmodel_mm, tally.wanted);
+        figures.model_missed_fraction = share(tally.missed, tally.wanted);
+        figures.contour_uncovered_fraction = share(tally.uncovered, tally.outline);
+        figures.unsupported_fraction = share(figures.unsupported_mm, figures.path_mm);
+        figures.contact_per_model_mm = share(tally.contact, tally.wanted);
+        figures.contact_outside_apart_from_roots = share(tally.contact_outside, tally.wanted);
+        figures.roots_per_model_m = share(1000.0 * tally.roots as f64, tally.wanted);
+        figures.doubled_per_model_mm = share((tally.laid - tally.swept) / settings.width, tally.wanted);
+        figures.overdeposit_apart_from_roots = share(tally.crowded, figures.path_mm);
+        figures.overdeposit = 1.0 - share(tally.swept, tally.laid);
+        figures.overdeposit_of_bare_model = 1.0 - share(tally.wall_swept, tally.wall_laid);
+        Report { settings: *settings, figures, findings }
+    }
+}
+
+fn length(points: &[DVec2]) -> f64 {
+    points.windows(2).map(|pair| pair[0].distance(pair[1])).sum()
+}
