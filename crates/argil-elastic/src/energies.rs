@@ -61,7 +61,7 @@ pub(crate) fn clear(weight: f64, sharpness: f64, kept: f64, distance: f64) -> Je
     let bounded = exponent.min(DEEPEST);
     let scale = weight * bounded.exp();
     Jet {
-        value: scale * (1.0 + (exponent - bounded)),
+        value: scale * (1.0 + (exponent - DEEPEST).max(0.0)),
         slope: -scale * sharpness,
         curvature: scale * sharpness * sharpness,
     }
@@ -88,4 +88,87 @@ pub(crate) fn repel(weight: f64, distance: f64) -> Jet {
     let overlap = (1.0 - distance).max(0.0);
     let curvature = if overlap > 0.0 { weight } else { 0.0 };
     Jet { value: 0.5 * weight * overlap * overlap, slope: -weight * overlap, curvature }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// First and second central differences.
+    fn differences(f: impl Fn(f64) -> f64, at: f64) -> (f64, f64) {
+        let h = 1e-4 * (1.0 + at.abs());
+        ((f(at + h) - f(at - h)) / (2.0 * h), (f(at + h) - 2.0 * f(at) + f(at - h)) / (h * h))
+    }
+
+    fn close(a: f64, b: f64) -> bool {
+        (a - b).abs() <= 2e-5 * (1.0 + a.abs().max(b.abs()))
+    }
+
+    proptest! {
+        #[test]
+        fn stretch_has_exact_derivatives(target in 0.1..2.0_f64, length in 0.01..3.0_f64) {
+            let (slope, curvature) = differences(|l| stretch(10.0, target, l).value, length);
+            let jet = stretch(10.0, target, length);
+            prop_assert!(close(jet.slope, slope) && close(jet.curvature, curvature));
+        }
+
+        #[test]
+        fn bend_has_an_exact_slope_and_the_curvature_of_gauss_newton(angle in -2.8..2.8_f64) {
+            let (slope, _) = differences(|t| bend(0.7, t.cos(), t.sin()).value, angle);
+            let (tangent, _) = differences(|t| (0.5 * t).tan(), angle);
+            let jet = bend(0.7, angle.cos(), angle.sin());
+            prop_assert!((jet.value - 0.7 * (0.5 * angle).tan().powi(2)).abs() <= 1e-9 * (1.0 + jet.value));
+            prop_assert!((jet.slope - slope).abs() <= 1e-3 * (1.0 + slope.abs()));
+            prop_assert!((jet.curvature - 1.4 * tangent * tangent).abs() <= 1e-3 * jet.curvature);
+        }
+
+        #[test]
+        fn clear_has_exact_derivatives(distance in -20.0..30.0_f64) {
+            let (slope, curvature) = differences(|d| clear(0.5, 0.75, 2.0, d).value, distance);
+            let jet = clear(0.5, 0.75, 2.0, distance);
+            prop_assert!((jet.slope - slope).abs() <= 1e-5 * jet.value.max(1.0));
+            prop_assert!((jet.curvature - curvature).abs() <= 1e-4 * jet.value.max(1.0));
+        }
+
+        #[test]
+        fn barrier_has_exact_derivatives(square in 0.0..0.8_f64) {
+            let value = |q: f64| barrier(0.3, 1.0, q).map_or(f64::NAN, |jet| jet.value);
+            let (slope, curvature) = differences(value, square);
+            let jet = barrier(0.3, 1.0, square).unwrap();
+            prop_assert!(close(jet.slope, slope) && (jet.curvature - curvature).abs() <= 1e-3 * jet.curvature);
+        }
+
+        #[test]
+        fn repel_has_exact_derivatives(distance in 0.0..0.99_f64) {
+            let (slope, curvature) = differences(|d| repel(1.5, d).value, distance);
+            let jet = repel(1.5, distance);
+            prop_assert!(close(jet.slope, slope) && close(jet.curvature, curvature));
+        }
+    }
+
+    #[test]
+    fn a_reversal_is_finite_and_the_dearest_turn() {
+        let mut last = -1.0;
+        for step in 0..=1800 {
+            let angle = (f64::from(step) * 0.1).to_radians();
+            let jet = bend(1.0, angle.cos(), angle.sin());
+            assert!(jet.value > last && jet.value.is_finite(), "{step}");
+            assert!(jet.slope >= 0.0 && jet.curvature > 0.0);
+            last = jet.value;
+        }
+    }
+
+    #[test]
+    fn the_barrier_ends_at_the_rim() {
+        assert!(barrier(1.0, 0.3, 0.09).is_none());
+        assert!(barrier(1.0, 0.3, 0.0899).is_some());
+    }
+
+    #[test]
+    fn the_clearance_is_finite_however_deep() {
+        assert!(clear(1.0, 0.75, 2.0, -1e9).value.is_finite());
+        assert_eq!(clear(1.0, 0.75, 2.0, f64::INFINITY).value, 0.0);
+    }
 }

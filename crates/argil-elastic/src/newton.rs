@@ -32,7 +32,7 @@ const CUT_ALONG: usize = 2;
 /// Rounds of local cuts within one trial step.
 const ROUNDS: usize = 24;
 
-/// What is relaxed besides the path itself: the literal text of the paper and our reading differ in these alone.
+/// How Sec. 3.4 is read; the readings share the energies, the system and the descent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Reading {
     /// Discs about the anchors of carriers, and a guarded line search.

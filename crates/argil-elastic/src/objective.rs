@@ -280,3 +280,6 @@ impl Objective<'_> {
 fn outer(a: DVec2, b: DVec2) -> DMat2 {
     DMat2::from_cols(a * b.x, a * b.y)
 }
+
+#[cfg(test)]
+mod tests;

@@ -18,11 +18,11 @@ pub struct Carrier {
 /// A signed distance field to keep clear of: the safeguard of the model (Sec. 3.4).
 ///
 /// A trait and not a polygon, because the planner already holds an index over the safeguard's edges, and because
-/// the paper's implicit surface (Eq. 4) is another answer to the same question.
+/// the paper's implicit surface ([`ImlsField`](crate::ImlsField)) is another answer to the same question.
 pub trait Clearance {
-    /// Signed distance from `p` in mm, positive outside the safeguard, and its unit gradient.
+    /// Signed distance from `p` in mm, positive outside the safeguard, and its gradient by `p`.
     ///
-    /// A result that is not finite counts as infinitely far away.
+    /// The gradient of an exact distance has unit length. A result that is not finite counts as infinitely far away.
     fn distance(&self, p: DVec2) -> (f64, DVec2);
 }
 

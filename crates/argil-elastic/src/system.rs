@@ -115,6 +115,21 @@ impl NormalSystem {
         }
     }
 
+    /// The whole symmetric matrix.
+    #[cfg(test)]
+    pub(crate) fn dense(&self) -> nalgebra::DMatrix<f64> {
+        let size = self.diagonal.len();
+        let mut dense = nalgebra::DMatrix::zeros(size, size);
+        for column in 0..size {
+            for place in self.pattern.col_ptr()[column]..self.pattern.col_ptr()[column + 1] {
+                let row = self.pattern.row_idx()[place];
+                dense[(row, column)] = self.values[place];
+                dense[(column, row)] = self.values[place];
+            }
+        }
+        dense
+    }
+
     /// Solves for the Newton step; `false` if the matrix is not positive definite or the step not finite.
     ///
     /// Linear in the number of free vertices, and free of allocation.
