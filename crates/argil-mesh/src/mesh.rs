@@ -160,7 +160,10 @@ impl Mesh {
     /// Near linear in the number of triangles.
     #[must_use]
     pub fn oriented(&self) -> Self {
-        Self { vertices: self.vertices.clone(), triangles: winding::agreeing(&self.vertices, &self.triangles, &self.edges()) }
+        Self {
+            vertices: self.vertices.clone(),
+            triangles: winding::agreeing(&self.vertices, &self.triangles, &self.edges()),
+        }
     }
 
     /// The mesh scaled and moved onto the bed: its lowest point comes to lie at z = 0.
@@ -182,11 +185,9 @@ impl Mesh {
     /// ```
     pub fn placed(&self, placement: &Placement) -> Result<Self, MeshError> {
         let vertices = placement::place(&self.vertices, &self.bounds(), placement)?;
-        if let Some(triangle) = self
-            .triangles
-            .iter()
-            .position(|corners| corners.iter().any(|&k| !vertices[k as usize].iter().all(|value| value.abs() <= LARGEST)))
-        {
+        if let Some(triangle) = self.triangles.iter().position(|corners| {
+            corners.iter().any(|&k| !vertices[k as usize].iter().all(|value| value.abs() <= LARGEST))
+        }) {
             return Err(MeshError::NotFinite { triangle });
         }
         Ok(Self { vertices, triangles: self.triangles.clone() })

@@ -44,11 +44,8 @@ pub(crate) fn place(
     };
     // Move first, then scale: the lowest point then lies at zero exactly, not up to rounding.
     let lowered = Translation3::new(-middle[0], -middle[1], -bounds.min[2]);
-    let scaled = Similarity3::from_parts(
-        Translation3::from(Vector3::zeros()),
-        UnitQuaternion::identity(),
-        factor,
-    );
+    let scaled =
+        Similarity3::from_parts(Translation3::from(Vector3::zeros()), UnitQuaternion::identity(), factor);
     let mut placed: Vec<[f64; 3]> =
         vertices.iter().map(|&vertex| (scaled * (lowered * Point3::from(vertex))).coords.into()).collect();
     if let Size::Height(height) = placement.size {

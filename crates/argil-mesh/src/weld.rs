@@ -119,7 +119,8 @@ mod tests {
 
     #[test]
     fn signed_zeros_are_one_vertex() {
-        let vertices = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-0.0, -0.0, 0.0], [1.0, 1.0, 0.0]];
+        let vertices =
+            [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-0.0, -0.0, 0.0], [1.0, 1.0, 0.0]];
         let welded = weld(&vertices, &[[0, 1, 2], [3, 4, 2]]);
         assert_eq!(welded.vertices.len(), 4);
         assert_eq!(welded.triangles[1][0], welded.triangles[0][0]);

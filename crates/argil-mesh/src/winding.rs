@@ -31,7 +31,8 @@ pub(crate) fn agreeing(vertices: &[[f64; 3]], triangles: &[[u32; 3]], edges: &Ed
                 if other == NONE || turned[other as usize].is_some() {
                     continue;
                 }
-                let agrees = runs_up(triangles[triangle], side) != runs_up_over(triangles, edges, other, edge);
+                let agrees =
+                    runs_up(triangles[triangle], side) != runs_up_over(triangles, edges, other, edge);
                 turned[other as usize] = Some(is_turned == agrees);
                 patch.push(other as usize);
             }

@@ -125,7 +125,8 @@ pub(crate) fn close_gaps(open: &mut Vec<OpenChain>, limit: f64) -> Vec<Vec<DVec2
         }
         let mut left = Vec::new();
         let mut used = vec![false; open.len()];
-        let rings_last = (0..open.len()).filter(|&k| !has_leader[k]).chain((0..open.len()).filter(|&k| has_leader[k]));
+        let rings_last =
+            (0..open.len()).filter(|&k| !has_leader[k]).chain((0..open.len()).filter(|&k| has_leader[k]));
         for first in rings_last.collect::<Vec<_>>() {
             if used[first] {
                 continue;

@@ -21,12 +21,20 @@ pub(crate) fn wound_region(contours: Vec<Vec<DVec2>>, least_area: f64) -> MultiP
 
 /// All points of the region farther than `distance` from its boundary, up to `chord_error`: joins
 /// round concave corners are arcs of chords.
-pub(crate) fn inset(region: &impl Buffer<Scalar = f64>, distance: f64, chord_error: f64) -> MultiPolygon<f64> {
+pub(crate) fn inset(
+    region: &impl Buffer<Scalar = f64>,
+    distance: f64,
+    chord_error: f64,
+) -> MultiPolygon<f64> {
     offset(region, -distance, arc_step(distance, chord_error))
 }
 
 /// All points within `distance` of the region, short by at most `chord_error`.
-pub(crate) fn dilation(region: &impl Buffer<Scalar = f64>, distance: f64, chord_error: f64) -> MultiPolygon<f64> {
+pub(crate) fn dilation(
+    region: &impl Buffer<Scalar = f64>,
+    distance: f64,
+    chord_error: f64,
+) -> MultiPolygon<f64> {
     offset(region, distance, arc_step(distance, chord_error))
 }
 

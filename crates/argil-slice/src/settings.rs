@@ -3,6 +3,9 @@ use crate::SliceError;
 /// The most layers that are cut: five times a metre at 0.05 mm.
 pub(crate) const MOST_LAYERS: usize = 100_000;
 
+/// Lengths beyond a kilometre are a mistake, and the polygon kernel cannot grow a region by much more.
+const LONGEST: f64 = 1e6;
+
 /// How a mesh is cut and its walls are laid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SliceSettings {
@@ -31,12 +34,14 @@ impl Default for SliceSettings {
 
 impl SliceSettings {
     pub(crate) fn check(&self) -> Result<(), SliceError> {
-        for (setting, value) in [("layer_height", self.layer_height), ("width", self.width), ("grid", self.grid)] {
-            if !(value.is_normal() && value > 0.0) {
+        for (setting, value) in
+            [("layer_height", self.layer_height), ("width", self.width), ("grid", self.grid)]
+        {
+            if !(value.is_normal() && value > 0.0 && value <= LONGEST) {
                 return Err(SliceError::Setting { setting, value });
             }
         }
-        if !(self.gap.is_finite() && self.gap >= 0.0) {
+        if !(0.0..=LONGEST).contains(&self.gap) {
             return Err(SliceError::Setting { setting: "gap", value: self.gap });
         }
         if self.walls == 0 {

@@ -34,7 +34,8 @@ fn thinned(ring: &[DVec2], tolerance: f64) -> Vec<usize> {
     if count <= 3 {
         return (0..count).collect();
     }
-    let by_place = |&a: &usize, &b: &usize| ring[a].x.total_cmp(&ring[b].x).then(ring[a].y.total_cmp(&ring[b].y));
+    let by_place =
+        |&a: &usize, &b: &usize| ring[a].x.total_cmp(&ring[b].x).then(ring[a].y.total_cmp(&ring[b].y));
     let first = (0..count).min_by(by_place).unwrap_or(0);
     let from_first = |k: usize| ring[k].distance_squared(ring[first]);
     let second = (0..count).max_by(|&a, &b| from_first(a).total_cmp(&from_first(b))).unwrap_or(0);

@@ -1,9 +1,9 @@
+use crate::SliceSettings;
 use crate::containment::nest;
 use crate::layer::{Loss, WallLoop};
 use crate::region::{self, perimeter, polygon_through, ring_points, signed_area};
 use crate::simplification::{distance_to_side, rounded, simplified};
 use crate::soundness::unsound;
-use crate::SliceSettings;
 use geo::{Area, BooleanOps, Centroid, InteriorPoint};
 use geo_types::{MultiPolygon, Polygon};
 use glam::DVec2;
@@ -54,7 +54,11 @@ const BRANCH_SLACK: f64 = 1.0 / 30.0;
 const BRANCH_DISTANCE: f64 = 0.75;
 
 /// The walls of a layer's outline, and what of it they do not print.
-pub(crate) fn walls(layer: usize, outline: &MultiPolygon<f64>, settings: &SliceSettings) -> (Vec<WallLoop>, Vec<Loss>) {
+pub(crate) fn walls(
+    layer: usize,
+    outline: &MultiPolygon<f64>,
+    settings: &SliceSettings,
+) -> (Vec<WallLoop>, Vec<Loss>) {
     let mut losses = Vec::new();
     let mut pieces: Vec<Piece<'_>> = Vec::new();
     let simple: Vec<Polygon<f64>> = outline.iter().map(|polygon| simpler(polygon, settings.width)).collect();
@@ -77,7 +81,8 @@ pub(crate) fn walls(layer: usize, outline: &MultiPolygon<f64>, settings: &SliceS
             });
             pieces.extend(thin);
         } else {
-            let first: Vec<&Piece<'_>> = pieces[found..].iter().filter(|piece| piece.source.wall == 0).collect();
+            let first: Vec<&Piece<'_>> =
+                pieces[found..].iter().filter(|piece| piece.source.wall == 0).collect();
             if !comes_near(polygon, &first, settings.width) {
                 losses.extend(lost_branches(layer, polygon, &first, settings));
             }
@@ -151,7 +156,9 @@ fn thin_pieces<'a>(polygon: &'a Polygon<f64>, settings: &SliceSettings) -> Vec<P
     for factor in THIN_INSETS {
         let source = Source { polygon, distance: factor * 0.5 * settings.width, wall: 0, thin: true };
         let mut pieces = source.pieces(cleaning, settings);
-        pieces.retain(|piece| piece.rings.first().is_some_and(|ring| perimeter(ring) >= THIN_LENGTH * settings.width));
+        pieces.retain(|piece| {
+            piece.rings.first().is_some_and(|ring| perimeter(ring) >= THIN_LENGTH * settings.width)
+        });
         if !pieces.is_empty() {
             return pieces;
         }
@@ -193,7 +200,12 @@ fn comes_near(polygon: &Polygon<f64>, pieces: &[&Piece<'_>], width: f64) -> bool
 }
 
 /// The parts of an outline that lie farther from its first wall than the bead reaches.
-fn lost_branches(layer: usize, polygon: &Polygon<f64>, pieces: &[&Piece<'_>], settings: &SliceSettings) -> Vec<Loss> {
+fn lost_branches(
+    layer: usize,
+    polygon: &Polygon<f64>,
+    pieces: &[&Piece<'_>],
+    settings: &SliceSettings,
+) -> Vec<Loss> {
     let width = settings.width;
     let reach = (0.5 + BRANCH_SLACK) * width;
     let printed = MultiPolygon(pieces.iter().map(|piece| polygon_through(&piece.rings)).collect());
@@ -222,15 +234,19 @@ fn sound_pieces<'a>(
         }
         let mut sound = Vec::with_capacity(pieces.len());
         for (piece, is_faulty) in pieces.into_iter().zip(faulty) {
-            match cleaning {
-                _ if !is_faulty => sound.push(piece),
-                Some(cleaning) => sound.extend(piece.cleaned(*cleaning, settings)),
-                None => losses.push(Loss::Unsound {
+            if !is_faulty {
+                sound.push(piece);
+                continue;
+            }
+            let better = cleaning.map_or(Vec::new(), |cleaning| piece.cleaned(*cleaning, settings));
+            if better.is_empty() {
+                losses.push(Loss::Unsound {
                     layer,
                     at: piece.rings.first().and_then(|ring| ring.first()).copied().unwrap_or_default(),
                     length: piece.rings.iter().map(|ring| perimeter(ring)).sum(),
-                }),
+                });
             }
+            sound.extend(better);
         }
         pieces = sound;
     }
@@ -250,7 +266,10 @@ impl<'a> Piece<'a> {
 fn faulty_pieces(pieces: &[Piece<'_>], grid: f64) -> Vec<bool> {
     let rings: Vec<Vec<DVec2>> = pieces.iter().flat_map(|piece| piece.rings.iter().cloned()).collect();
     let mut faulty = unsound(&rings, grid).into_iter();
-    pieces.iter().map(|piece| faulty.by_ref().take(piece.rings.len()).fold(false, |any, is| any | is)).collect()
+    pieces
+        .iter()
+        .map(|piece| faulty.by_ref().take(piece.rings.len()).fold(false, |any, is| any | is))
+        .collect()
 }
 
 /// A point inside the polygon, or at least near it where it has no inside.

@@ -1,0 +1,235 @@
+//! Invariants of reading, welding, winding and placing, over meshes made here.
+
+use argil_mesh::{Ground, Mesh, MeshError, Placement, Size, read_stl};
+use proptest::prelude::*;
+use std::f64::consts::TAU;
+
+/// A prism over a polygon that is star-shaped about the origin: vertices and outward triangles.
+fn prism(radii: &[f64], height: f64) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
+    let count = radii.len() as u32;
+    let rim = |z: f64| {
+        let step = TAU / f64::from(count);
+        radii
+            .iter()
+            .enumerate()
+            .map(move |(k, r)| [r * (step * k as f64).cos(), r * (step * k as f64).sin(), z])
+    };
+    let vertices = rim(0.0).chain(rim(height)).chain([[0.0, 0.0, 0.0], [0.0, 0.0, height]]).collect();
+    let triangles = (0..count)
+        .flat_map(|k| {
+            let next = (k + 1) % count;
+            let (above, above_next) = (count + k, count + next);
+            [
+                [k, next, above],
+                [next, above_next, above],
+                [2 * count, next, k],
+                [2 * count + 1, above, above_next],
+            ]
+        })
+        .collect();
+    (vertices, triangles)
+}
+
+fn binary_stl(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Vec<u8> {
+    let facets: Vec<stl_io::Triangle> = triangles
+        .iter()
+        .map(|corners| stl_io::Triangle {
+            normal: stl_io::Normal::new([0.0; 3]),
+            vertices: corners.map(|k| stl_io::Vertex::new(vertices[k as usize].map(|value| value as f32))),
+        })
+        .collect();
+    let mut bytes = Vec::new();
+    stl_io::write_stl(&mut bytes, facets.iter()).unwrap();
+    bytes
+}
+
+fn text_stl(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> String {
+    let mut text = String::from("solid part\n");
+    for corners in triangles {
+        text += "facet normal 0 0 0\n outer loop\n";
+        for &corner in corners {
+            let [x, y, z] = vertices[corner as usize].map(|value| value as f32);
+            text += &format!("  vertex {x} {y} {z}\n");
+        }
+        text += " endloop\nendfacet\n";
+    }
+    text + "endsolid part\n"
+}
+
+fn radii() -> impl Strategy<Value = Vec<f64>> {
+    prop::collection::vec(2.0..9.0_f64, 3..20)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn a_round_trip_through_stl_keeps_the_mesh(radii in radii(), height in 1.0..20.0_f64) {
+        let (vertices, triangles) = prism(&radii, height);
+        let mesh = Mesh::new(vertices.clone(), triangles.clone()).unwrap();
+        let binary = read_stl(&binary_stl(&vertices, &triangles)).unwrap();
+        prop_assert_eq!(binary.vertices().len(), vertices.len());
+        prop_assert_eq!(binary.triangles().len(), triangles.len());
+        let volume = mesh.signed_volume();
+        prop_assert!((binary.signed_volume() - volume).abs() < 1e-4 * volume);
+        // Text holds the shortest decimals that name the same single-precision numbers.
+        let text = read_stl(text_stl(&vertices, &triangles).as_bytes()).unwrap();
+        prop_assert_eq!(text.triangles(), binary.triangles());
+        for (a, b) in text.vertices().iter().zip(binary.vertices()) {
+            prop_assert_eq!(a.map(|value| value as f32), b.map(|value| value as f32));
+        }
+        let again = binary_stl(binary.vertices(), binary.triangles());
+        prop_assert_eq!(&binary, &read_stl(&again).unwrap());
+    }
+
+    #[test]
+    fn every_edge_of_a_welded_closed_mesh_has_two_triangles(
+        radii in radii(),
+        jitter in prop::collection::vec(-2e-7..2e-7_f64, 16),
+    ) {
+        // Every triangle with its own corners, each a little off.
+        let (vertices, triangles) = prism(&radii, 5.0);
+        let corners = triangles.iter().flatten().enumerate();
+        let soup: Vec<[f64; 3]> = corners
+            .map(|(k, &v)| { let mut p = vertices[v as usize]; p[k % 3] += jitter[k % 16]; p })
+            .collect();
+        let loose = (0..triangles.len() as u32).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+        let mesh = Mesh::new(soup, loose).unwrap();
+        prop_assert_eq!(mesh.vertices().len(), vertices.len());
+        let edges = mesh.edges();
+        let mut met = vec![0; edges.ends().len()];
+        edges.of_triangles().iter().flatten().for_each(|&edge| met[edge as usize] += 1);
+        prop_assert!(met.iter().all(|&count| count == 2));
+    }
+
+    #[test]
+    fn orienting_undoes_any_turned_triangles(radii in radii(), turned in prop::collection::vec(any::<bool>(), 80)) {
+        let (vertices, triangles) = prism(&radii, 5.0);
+        let volume = Mesh::new(vertices.clone(), triangles.clone()).unwrap().signed_volume();
+        let mut mixed = triangles;
+        for (triangle, _) in mixed.iter_mut().zip(turned).filter(|(_, turned)| *turned) {
+            triangle.swap(0, 1);
+        }
+        let mesh = Mesh::new(vertices, mixed).unwrap().oriented();
+        prop_assert!((mesh.signed_volume().abs() - volume).abs() < 1e-9 * volume);
+        prop_assert_eq!(&mesh.oriented(), &mesh);
+    }
+
+    #[test]
+    fn a_placed_mesh_stands_on_the_bed_at_its_size(
+        radii in radii(), height in 0.1..20.0_f64, to in 0.1..500.0_f64, factor in 0.01..100.0_f64, lift in -9.0..9.0_f64,
+    ) {
+        let (mut vertices, triangles) = prism(&radii, height);
+        vertices.iter_mut().for_each(|v| v[2] += lift);
+        let mesh = Mesh::new(vertices, triangles).unwrap();
+        let tall = mesh.placed(&Placement { size: Size::Height(to), ground: Ground::Centre }).unwrap();
+        prop_assert_eq!((tall.bounds().min[2], tall.bounds().max[2]), (0.0, to));
+        let [x, y, _] = tall.bounds().centre();
+        prop_assert!(x.abs() < 1e-9 * to * 500.0 && y.abs() < 1e-9 * to * 500.0);
+        let scaled = mesh.placed(&Placement { size: Size::Scale(factor), ground: Ground::Keep }).unwrap();
+        for (after, before) in scaled.vertices().iter().zip(mesh.vertices()) {
+            prop_assert!((after[0] - factor * before[0]).abs() <= 1e-12 * factor * 100.0);
+        }
+        let volume = mesh.signed_volume() * factor.powi(3);
+        prop_assert!((scaled.signed_volume() - volume).abs() < 1e-6 * volume);
+    }
+
+    #[test]
+    fn bytes_never_panic(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+        let _ = read_stl(&bytes);
+    }
+
+    #[test]
+    fn words_never_panic(words in prop::collection::vec(prop::sample::select(vec![
+        "solid", "endsolid", "facet", "normal", "outer", "loop", "vertex", "endloop", "endfacet", "0", "1", "-2e3", "nan", "inf", "\n", "ü",
+    ]), 0..60)) {
+        let _ = read_stl(("solid ".to_owned() + &words.join(" ")).as_bytes());
+    }
+}
+
+#[test]
+fn no_proper_prefix_is_taken_for_the_file() {
+    let (vertices, triangles) = prism(&[3.0, 4.0, 5.0, 4.0], 2.0);
+    let binary = binary_stl(&vertices, &triangles);
+    assert!(read_stl(&binary).is_ok());
+    for length in 0..binary.len() {
+        assert!(read_stl(&binary[..length]).is_err(), "binary, {length} bytes");
+    }
+    let text = text_stl(&vertices, &triangles);
+    for length in 0..text.find("endsolid").unwrap() + "endsolid".len() {
+        assert!(read_stl(&text.as_bytes()[..length]).is_err(), "text, {length} bytes");
+    }
+}
+
+#[test]
+fn a_binary_body_whose_length_disagrees_says_so() {
+    let (vertices, triangles) = prism(&[3.0, 4.0, 5.0], 2.0);
+    let mut bytes = binary_stl(&vertices, &triangles);
+    let declared = triangles.len() as u64;
+    assert_eq!(
+        read_stl(&bytes[..bytes.len() - 60]),
+        Err(MeshError::Truncated { declared, present: declared - 2, extra: 40 }),
+    );
+    bytes.extend([0; 3]);
+    assert_eq!(read_stl(&bytes), Err(MeshError::Truncated { declared, present: declared, extra: 3 }));
+}
+
+#[test]
+fn a_binary_body_under_a_solid_header_is_read() {
+    let (vertices, triangles) = prism(&[3.0, 4.0, 5.0], 2.0);
+    let mut bytes = binary_stl(&vertices, &triangles);
+    bytes[..14].copy_from_slice(b"solid exported");
+    assert_eq!(read_stl(&bytes).unwrap().triangles().len(), triangles.len());
+}
+
+#[test]
+fn several_solids_in_one_text_are_one_mesh() {
+    let (vertices, triangles) = prism(&[3.0, 4.0, 5.0], 2.0);
+    let text = text_stl(&vertices, &triangles);
+    let moved: Vec<[f64; 3]> = vertices.iter().map(|v| [v[0] + 50.0, v[1], v[2]]).collect();
+    let both = text + &text_stl(&moved, &triangles);
+    assert_eq!(read_stl(both.as_bytes()).unwrap().triangles().len(), 2 * triangles.len());
+}
+
+#[test]
+fn normals_that_are_no_numbers_do_not_matter_but_corners_do() {
+    let facet = |normal: &str, x: &str| {
+        format!(
+            "solid a\nfacet normal {normal}\nouter loop\nvertex {x} 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a"
+        )
+    };
+    assert!(read_stl(facet("nan nan nan", "0").as_bytes()).is_ok());
+    assert_eq!(read_stl(facet("0 0 1", "nan").as_bytes()), Err(MeshError::NotFinite { triangle: 0 }));
+    assert_eq!(read_stl(facet("0 0 1", "-inf").as_bytes()), Err(MeshError::NotFinite { triangle: 0 }));
+    assert_eq!(read_stl(facet("0 0 1", "1").as_bytes()), Err(MeshError::NoTriangles));
+}
+
+#[test]
+fn what_is_missing_is_named() {
+    assert_eq!(read_stl(b""), Err(MeshError::Empty));
+    assert_eq!(read_stl(&[0; 84]), Err(MeshError::NoTriangles));
+    assert!(matches!(read_stl(b"ply\nformat ascii 1.0\n"), Err(MeshError::Unreadable { line: 0, .. })));
+    assert!(matches!(
+        read_stl(b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0\nendloop"),
+        Err(MeshError::Unreadable { line: 5, .. })
+    ));
+    assert_eq!(
+        Mesh::new(vec![[0.0; 3]], vec![[0, 0, 7]]),
+        Err(MeshError::NoSuchVertex { triangle: 0, vertex: 7 })
+    );
+}
+
+#[test]
+fn sizes_that_are_no_sizes_are_refused() {
+    let (vertices, triangles) = prism(&[3.0, 4.0, 5.0], 2.0);
+    let mesh = Mesh::new(vertices, triangles).unwrap();
+    for factor in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(mesh.placed(&Placement { size: Size::Scale(factor), ..Placement::default() }).is_err());
+        assert!(mesh.placed(&Placement { size: Size::Height(factor), ..Placement::default() }).is_err());
+    }
+    let huge = Placement { size: Size::Scale(1e300), ..Placement::default() };
+    assert!(matches!(mesh.placed(&huge), Err(MeshError::NotFinite { .. })));
+    let flat = Mesh::new(vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], vec![[0, 1, 2]]).unwrap();
+    let tall = Placement { size: Size::Height(5.0), ..Placement::default() };
+    assert_eq!(flat.placed(&tall), Err(MeshError::Height { from: 0.0, to: 5.0 }));
+}

@@ -1,0 +1,357 @@
+//! Invariants of the layers, over meshes made here.
+
+use argil_slice::mesh::Mesh;
+use argil_slice::{Layer, Loss, SliceError, SliceSettings, WallLoop, outer_walls, slice};
+use geo::{Area, Contains, Distance, Euclidean};
+use geo_types::{Coord, LineString, Point, Polygon};
+use glam::DVec2;
+use proptest::prelude::*;
+use std::f64::consts::TAU;
+
+/// Vertices and outward triangles of a body.
+#[derive(Clone, Debug, Default)]
+struct Body {
+    vertices: Vec<[f64; 3]>,
+    triangles: Vec<[u32; 3]>,
+}
+
+impl Body {
+    fn ring(radii: &[f64], at: [f64; 2], z: f64) -> Vec<[f64; 3]> {
+        let step = TAU / radii.len() as f64;
+        let place = |(k, r): (usize, &f64)| {
+            [at[0] + r * (step * k as f64).cos(), at[1] + r * (step * k as f64).sin(), z]
+        };
+        radii.iter().enumerate().map(place).collect()
+    }
+
+    /// A prism whose base is star-shaped about `at`, scaled by `taper` at the top.
+    fn prism(radii: &[f64], at: [f64; 2], z: [f64; 2], taper: f64) -> Self {
+        let n = radii.len() as u32;
+        let top: Vec<f64> = radii.iter().map(|r| r * taper).collect();
+        let mut vertices = Self::ring(radii, at, z[0]);
+        vertices.extend(Self::ring(&top, at, z[1]));
+        vertices.extend([[at[0], at[1], z[0]], [at[0], at[1], z[1]]]);
+        let sides = |k: u32| {
+            let next = (k + 1) % n;
+            [[k, next, n + k], [next, n + next, n + k], [2 * n, next, k], [2 * n + 1, n + k, n + next]]
+        };
+        Self { vertices, triangles: (0..n).flat_map(sides).collect() }
+    }
+
+    /// A ring-shaped prism: the outer radii less a wall.
+    fn tube(radii: &[f64], wall: f64, z: [f64; 2]) -> Self {
+        let n = radii.len() as u32;
+        let inner: Vec<f64> = radii.iter().map(|r| r - wall).collect();
+        let vertices = [(radii, z[0]), (radii, z[1]), (&inner, z[0]), (&inner, z[1])];
+        let vertices = vertices.into_iter().flat_map(|(radii, z)| Self::ring(radii, [0.0; 2], z)).collect();
+        let quad = |a: u32, b: u32, c: u32, d: u32| [[a, b, c], [a, c, d]];
+        let sides = |k: u32| {
+            let next = (k + 1) % n;
+            [
+                quad(k, next, n + next, n + k),
+                quad(2 * n + next, 2 * n + k, 3 * n + k, 3 * n + next),
+                quad(n + k, n + next, 3 * n + next, 3 * n + k),
+                quad(next, k, 2 * n + k, 2 * n + next),
+            ]
+        };
+        Self { vertices, triangles: (0..n).flat_map(sides).flatten().collect() }
+    }
+
+    fn cuboid(low: [f64; 3], high: [f64; 3]) -> Self {
+        let corner = |k: usize| [0, 1, 2].map(|axis| if k >> axis & 1 == 0 { low[axis] } else { high[axis] });
+        let triangles = vec![
+            [0, 2, 1],
+            [1, 2, 3],
+            [4, 5, 6],
+            [5, 7, 6],
+            [0, 1, 4],
+            [1, 5, 4],
+            [2, 6, 3],
+            [3, 6, 7],
+            [0, 4, 2],
+            [2, 4, 6],
+            [1, 3, 5],
+            [3, 7, 5],
+        ];
+        Self { vertices: (0..8).map(corner).collect(), triangles }
+    }
+
+    fn and(mut self, other: Self) -> Self {
+        let first = self.vertices.len() as u32;
+        self.vertices.extend(other.vertices);
+        self.triangles.extend(other.triangles.iter().map(|corners| corners.map(|k| k + first)));
+        self
+    }
+
+    fn inverted(mut self) -> Self {
+        self.triangles.iter_mut().for_each(|corners| corners.swap(0, 1));
+        self
+    }
+
+    fn mesh(&self) -> Mesh {
+        Mesh::new(self.vertices.clone(), self.triangles.clone()).unwrap()
+    }
+}
+
+fn settings(walls: usize) -> SliceSettings {
+    SliceSettings { walls, ..SliceSettings::default() }
+}
+
+fn area(layer: &Layer) -> f64 {
+    layer.outline.unsigned_area()
+}
+
+fn polygon(points: &[DVec2]) -> Polygon<f64> {
+    Polygon::new(LineString(points.iter().map(|p| Coord { x: p.x, y: p.y }).collect()), vec![])
+}
+
+fn segments(wall: &WallLoop) -> Vec<(DVec2, DVec2)> {
+    (0..wall.points.len()).map(|k| (wall.points[k], wall.points[(k + 1) % wall.points.len()])).collect()
+}
+
+fn distance_to(p: DVec2, (a, b): (DVec2, DVec2)) -> f64 {
+    let t = ((p - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
+    p.distance(a + (b - a) * t)
+}
+
+fn separation(s: (DVec2, DVec2), t: (DVec2, DVec2)) -> f64 {
+    let turn = |a: DVec2, b: DVec2, c: DVec2| (b - a).perp_dot(c - a).signum();
+    if turn(s.0, s.1, t.0) * turn(s.0, s.1, t.1) < 0.0 && turn(t.0, t.1, s.0) * turn(t.0, t.1, s.1) < 0.0 {
+        return 0.0;
+    }
+    [distance_to(s.0, t), distance_to(s.1, t), distance_to(t.0, s), distance_to(t.1, s)]
+        .into_iter()
+        .fold(f64::MAX, f64::min)
+}
+
+/// Everything that the later stages rely on, by brute force.
+fn check(layer: &Layer, settings: &SliceSettings) -> Result<(), TestCaseError> {
+    let (walls, grid) = (&layer.walls, settings.grid);
+    for (index, wall) in walls.iter().enumerate() {
+        let on_grid = |v: f64| (v * 1e4).round() / 1e4 == v;
+        prop_assert!(wall.points.iter().all(|p| on_grid(p.x) && on_grid(p.y)), "off the grid");
+        let sides = segments(wall);
+        let n = sides.len();
+        prop_assert!(n >= 3);
+        for a in 0..n {
+            for b in a + 2..n {
+                if (b + 1) % n != a {
+                    prop_assert!(separation(sides[a], sides[b]) > 3.0 * grid, "loop {index} meets itself");
+                }
+            }
+            prop_assert!(distance_to(sides[(a + 1) % n].1, sides[a]) > 3.0 * grid, "loop {index} turns back");
+        }
+        for other in &walls[..index] {
+            for &s in &sides {
+                prop_assert!(segments(other).iter().all(|&t| separation(s, t) > 20.0 * grid), "loops meet");
+            }
+        }
+        let signed: f64 = sides.iter().map(|(a, b)| a.perp_dot(*b)).sum();
+        prop_assert_eq!(signed < 0.0, wall.hole);
+        let around: Vec<usize> = (0..walls.len())
+            .filter(|&k| {
+                k != index
+                    && polygon(&walls[k].points).contains(&Point::new(wall.points[0].x, wall.points[0].y))
+            })
+            .collect();
+        prop_assert_eq!(wall.depth, around.len());
+        match wall.parent {
+            None => prop_assert!(around.is_empty()),
+            Some(parent) => prop_assert!(around.contains(&parent) && walls[parent].depth + 1 == wall.depth),
+        }
+        if settings.walls == 1 {
+            prop_assert_eq!(wall.hole, wall.depth % 2 == 1);
+        }
+        // A bead's middle lies as far inside the outline as its wall says.
+        let reach = (wall.wall as f64 + 0.5) * settings.width;
+        for p in &wall.points {
+            let at = Point::new(p.x, p.y);
+            prop_assert!(layer.outline.contains(&at), "a wall outside its outline");
+            let rings = layer.outline.iter().flat_map(|p| std::iter::once(p.exterior()).chain(p.interiors()));
+            let depth = rings.map(|ring| Euclidean.distance(&at, ring)).fold(f64::MAX, f64::min);
+            if !wall.thin {
+                prop_assert!((depth - reach).abs() < 0.03 * settings.width, "wall {} at {depth}", wall.wall);
+            }
+        }
+    }
+    for outline in &layer.outline {
+        let inside = |p: DVec2| outline.contains(&Point::new(p.x, p.y));
+        let printed = walls.iter().any(|wall| inside(wall.points[0]));
+        prop_assert!(
+            printed || layer.losses.iter().any(|loss| inside(loss.at())),
+            "an outline without a word"
+        );
+    }
+    prop_assert!(layer.losses.iter().all(|loss| loss.layer() == layer.index));
+    prop_assert_eq!(outer_walls(layer).0.len(), walls.iter().filter(|wall| wall.depth == 0).count());
+    Ok(())
+}
+
+fn star() -> impl Strategy<Value = Vec<f64>> {
+    prop::collection::vec(1.0..12.0_f64, 5..30)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 40, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn walls_of_stars_are_sound(radii in star(), taper in 0.02..1.5_f64, walls in 1_usize..4) {
+        let body = Body::prism(&radii, [3.0, -2.0], [0.0, 3.0], taper);
+        let layers = slice(&body.mesh(), &settings(walls)).unwrap();
+        prop_assert_eq!(layers.len(), 6);
+        for layer in &layers {
+            check(layer, &settings(walls))?;
+            let is_open = |loss: &Loss| matches!(loss, Loss::OpenOutline { .. });
+            prop_assert!(!layer.losses.iter().any(is_open));
+        }
+    }
+
+    #[test]
+    fn walls_of_tubes_nest(radii in prop::collection::vec(9.0..12.0_f64, 5..40), wall in 0.2..6.0_f64, walls in 1_usize..4) {
+        let layers = slice(&Body::tube(&radii, wall, [0.0, 2.0]).mesh(), &settings(walls)).unwrap();
+        let [outer, inner] = [0.0, wall].map(|less| {
+            let step = TAU / radii.len() as f64;
+            let ring: Vec<f64> = radii.iter().map(|r| r - less).collect();
+            (0..ring.len()).map(|k| 0.5 * ring[k] * ring[(k + 1) % ring.len()] * step.sin()).sum::<f64>()
+        });
+        for layer in &layers {
+            check(layer, &settings(walls))?;
+            prop_assert!((area(layer) - (outer - inner)).abs() < 1e-4 * outer);
+        }
+    }
+
+    #[test]
+    fn overlapping_bodies_are_one(
+        a in [-9.0..0.0_f64, -9.0..0.0], b in [-5.0..9.0_f64, -5.0..9.0], size in [3.0..9.0_f64, 3.0..9.0], inverted: bool,
+    ) {
+        let cuboid = |at: [f64; 2]| Body::cuboid([at[0], at[1], 0.0], [at[0] + size[0], at[1] + size[1], 1.5]);
+        let both = cuboid(a).and(cuboid(b));
+        let both = if inverted { both.inverted() } else { both };
+        let shared: f64 = (0..2).map(|axis| (size[axis] - (a[axis] - b[axis]).abs()).max(0.0)).product();
+        for layer in slice(&both.mesh(), &settings(1)).unwrap() {
+            check(&layer, &settings(1))?;
+            prop_assert!((area(&layer) - (2.0 * size[0] * size[1] - shared)).abs() < 1e-3);
+        }
+    }
+
+    #[test]
+    fn turned_triangles_and_an_inside_out_mesh_change_nothing(radii in star(), turned in prop::collection::vec(any::<bool>(), 120)) {
+        let body = Body::prism(&radii, [0.0; 2], [0.0, 1.0], 0.8);
+        let mut mixed = body.clone().inverted();
+        for (corners, _) in mixed.triangles.iter_mut().zip(turned).filter(|(_, turned)| *turned) {
+            corners.swap(1, 2);
+        }
+        let plain = slice(&body.mesh(), &settings(1)).unwrap();
+        for (layer, other) in plain.iter().zip(&slice(&mixed.mesh(), &settings(1)).unwrap()) {
+            prop_assert!((area(layer) - area(other)).abs() < 1e-6);
+            prop_assert_eq!(layer.walls.len(), other.walls.len());
+            prop_assert_eq!(&layer.losses.len(), &other.losses.len());
+        }
+    }
+
+    #[test]
+    fn what_a_hole_in_the_mesh_costs_is_reported(radii in star(), missing: prop::sample::Index) {
+        let mut body = Body::prism(&radii, [0.0; 2], [0.0, 2.0], 1.0);
+        let whole = slice(&body.mesh(), &settings(1)).unwrap();
+        body.triangles.remove(missing.index(body.triangles.len()));
+        for (layer, sound) in slice(&body.mesh(), &settings(1)).unwrap().iter().zip(&whole) {
+            check(layer, &settings(1))?;
+            let open = layer.losses.iter().any(|loss| matches!(loss, Loss::OpenOutline { .. }));
+            // A gap of up to half a bead is closed straight, which changes next to nothing.
+            prop_assert!(open || (area(layer) - area(sound)).abs() < 0.75 * 12.0);
+            prop_assert!(!open || area(layer) < 1e-6);
+        }
+    }
+
+    #[test]
+    fn loose_triangles_never_break_it(
+        points in prop::collection::vec([-9.0..9.0_f64, -9.0..9.0, 0.0..4.0], 9..60),
+        on_planes: bool,
+    ) {
+        let place = |p: [f64; 3]| if on_planes { p.map(|v| (4.0 * v).round() / 4.0) } else { p };
+        let vertices: Vec<[f64; 3]> = points.into_iter().map(place).collect();
+        let count = vertices.len() as u32;
+        let triangles = (0..count - 2).map(|k| [k, k + 1, k + 2]).collect();
+        let Ok(mesh) = Mesh::new(vertices, triangles) else { return Ok(()) };
+        if let Ok(layers) = slice(&mesh, &settings(2)) {
+            for layer in &layers {
+                check(layer, &settings(2))?;
+            }
+            prop_assert_eq!(&layers, &slice(&mesh, &settings(2)).unwrap());
+        }
+    }
+}
+
+#[test]
+fn planes_through_vertices_and_flat_faces_cut_as_if_just_below() {
+    // The step at z = 1.25 lies in the plane of layer 2.
+    let body = Body::cuboid([0.0, 0.0, 0.0], [20.0, 20.0, 1.25])
+        .and(Body::cuboid([5.0, 5.0, 1.25], [15.0, 15.0, 3.0]));
+    let layers = slice(&body.mesh(), &SliceSettings::default()).unwrap();
+    let areas: Vec<f64> = layers.iter().map(|layer| area(layer).round()).collect();
+    assert_eq!(areas, [400.0, 400.0, 400.0, 100.0, 100.0, 100.0]);
+    assert!(layers.iter().all(|layer| layer.losses.is_empty()));
+}
+
+#[test]
+fn layers_are_counted_and_numbered_from_the_lowest_point() {
+    let layers = |height: f64| {
+        let body = Body::cuboid([0.0, 0.0, 7.0], [20.0, 20.0, 7.0 + height]);
+        slice(&body.mesh(), &SliceSettings::default())
+            .map(|layers| layers.iter().map(|l| (l.cut_z, l.print_z)).collect::<Vec<_>>())
+    };
+    assert_eq!(layers(1.2), Ok(vec![(7.25, 7.5), (7.75, 8.0)]));
+    assert_eq!(layers(1.3).unwrap().len(), 3);
+    assert!(matches!(layers(0.2), Err(SliceError::ThinnerThanALayer { .. })));
+    assert!(matches!(layers(60_000.0), Err(SliceError::TooManyLayers { limit: 100_000, .. })));
+}
+
+#[test]
+fn a_model_that_vanishes_for_a_while_leaves_empty_layers() {
+    let body =
+        Body::cuboid([0.0, 0.0, 0.0], [9.0, 9.0, 1.0]).and(Body::cuboid([0.0, 0.0, 2.0], [9.0, 9.0, 3.0]));
+    let layers = slice(&body.mesh(), &SliceSettings::default()).unwrap();
+    assert_eq!(layers.iter().map(|layer| layer.walls.len()).collect::<Vec<_>>(), [1, 1, 0, 0, 1, 1]);
+}
+
+#[test]
+fn a_plate_thinner_than_a_bead_is_printed_and_reported() {
+    let body = Body::cuboid([0.0, 0.0, 0.0], [20.0, 1.0, 2.0]);
+    let layer = &slice(&body.mesh(), &SliceSettings::default()).unwrap()[0];
+    assert!(layer.walls.iter().all(|wall| wall.thin) && layer.walls.len() == 1);
+    assert!(
+        matches!(layer.losses[..], [Loss::Thin { inset, area, .. }] if inset < 0.5 && (area - 20.0).abs() < 1e-6)
+    );
+    let body = Body::cuboid([0.0, 0.0, 0.0], [20.0, 0.1, 2.0]);
+    let layer = &slice(&body.mesh(), &SliceSettings::default()).unwrap()[0];
+    assert!(matches!(layer.losses[..], [Loss::Vanished { .. }]) && layer.walls.is_empty());
+}
+
+#[test]
+fn a_fin_thinner_than_a_bead_on_a_thick_body_is_reported() {
+    let body =
+        Body::cuboid([0.0, 0.0, 0.0], [10.0, 10.0, 2.0]).and(Body::cuboid([9.0, 4.0, 0.0], [16.0, 5.0, 2.0]));
+    let layer = &slice(&body.mesh(), &SliceSettings::default()).unwrap()[0];
+    assert_eq!(layer.walls.len(), 1);
+    assert!(
+        matches!(layer.losses[..], [Loss::Branch { area, at, .. }] if (4.0..7.0).contains(&area) && at.x > 10.0)
+    );
+}
+
+#[test]
+fn settings_that_are_no_lengths_are_refused() {
+    let mesh = Body::cuboid([0.0; 3], [9.0; 3]).mesh();
+    let good = SliceSettings::default();
+    for value in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e300] {
+        assert!(slice(&mesh, &SliceSettings { layer_height: value, ..good }).is_err());
+        assert!(slice(&mesh, &SliceSettings { width: value, ..good }).is_err());
+        assert!(slice(&mesh, &SliceSettings { grid: value, ..good }).is_err());
+    }
+    assert!(slice(&mesh, &SliceSettings { gap: f64::NAN, ..good }).is_err());
+    assert_eq!(slice(&mesh, &SliceSettings { walls: 0, ..good }), Err(SliceError::NoWalls));
+    assert!(matches!(
+        slice(&mesh, &SliceSettings { grid: 0.01, ..good }),
+        Err(SliceError::CoarseGrid { .. })
+    ));
+    assert!(slice(&mesh, &SliceSettings { layer_height: 1e-300, ..good }).is_err());
+}
