@@ -3,7 +3,7 @@
 use crate::coverage::{Coverage, Run};
 use crate::hairpin::Hairpins;
 use crate::placement::Placement;
-use crate::run::fewest_points;
+use crate::run::RunPlan;
 use crate::sharing::{Partner, Sharing};
 use argil_curve::{ClosedCurve, DVec2, SegmentIndex, held_spans};
 
@@ -62,8 +62,9 @@ pub fn place_supports(above: &ClosedCurve, walls: &SegmentIndex, placement: &Pla
     if !placement.is_usable() {
         return Vec::new();
     }
-    let along = placement.along.max(SHORTEST_BRIDGE * above.length());
-    let placement = &Placement { along, ..*placement };
+    let shortest = SHORTEST_BRIDGE * above.length();
+    let (along, step) = (placement.along.max(shortest), placement.step.max(shortest));
+    let placement = &Placement { along, step, ..*placement };
     let walled = held_spans(above, walls, placement.across);
     let index = SegmentIndex::of_curves([above], cell_for(above, placement));
     let mut planner = Planner {
@@ -106,35 +107,47 @@ impl Planner<'_> {
     /// Places points until nothing of `run` hangs further than allowed.
     fn serve(&mut self, run: Run) {
         let mut pending = vec![run];
-        while let Some(next) = pending.pop() {
-            for free in self.coverage.free_within(next) {
-                // What `free` holds of the rest of `next` once a point serves two stretches of it.
-                if let Some(rest) = self.serve_free(free) {
-                    pending.push(rest);
-                }
+        while let Some(run) = pending.pop() {
+            let free = self.coverage.free_within(run);
+            if free.as_slice() == [run] {
+                self.serve_free(run, &mut pending);
+            } else {
+                pending.extend(free.into_iter().rev());
             }
         }
     }
 
-    /// Places points on a stretch that nothing holds; the part still to be planned anew, if a shared point has
-    /// held something further along the same stretch.
-    fn serve_free(&mut self, free: Run) -> Option<Run> {
-        if free.length() <= self.placement.along * (1.0 + 1e-9) {
-            return None;
+    /// Places points on a stretch that nothing holds. Where a shared point holds something further along the same
+    /// stretch too, the stretch before that is `pending` and the plan goes on behind it.
+    fn serve_free(&mut self, run: Run, pending: &mut Vec<Run>) {
+        if !self.is_too_long(run) {
+            return;
         }
         let Self { placement, hairpins, sharing, coverage, .. } = &*self;
-        let price = |s: f64| {
-            let shared = if sharing.partner(s, coverage).is_some() { placement.share_bonus } else { 0.0 };
+        let plan = RunPlan::new(run, placement, |s| {
+            let shared = if sharing.has_partner(s, coverage) { placement.share_bonus } else { 0.0 };
             1.0 + placement.tip_weight * hairpins.at(s) - shared
-        };
-        for s in fewest_points(free, placement, price) {
+        });
+        let mut next = plan.first_from(run.start);
+        while let Some(k) = next {
+            let s = plan.place(k);
             let partner = self.sharing.partner(s, &self.coverage);
             self.place(s, partner);
-            if partner.is_some_and(|partner| self.above.wrapped(partner.s - free.start) < free.length()) {
-                return Some(free);
+            next = plan.next(k);
+            if partner.is_some_and(|partner| self.above.wrapped(partner.s - s) < run.end - s) {
+                let mut free = self.coverage.free_within(Run { start: s, end: run.end });
+                let last = free.pop_if(|free| free.end == run.end);
+                next =
+                    last.filter(|&last| self.is_too_long(last)).and_then(|last| plan.first_from(last.start));
+                pending.extend(free.into_iter().rev());
             }
         }
-        None
+    }
+
+    /// Whether a stretch that nothing holds is longer than a bridge may be. Between placed points stretches are as long as
+    /// allowed, up to rounding.
+    fn is_too_long(&self, run: Run) -> bool {
+        run.length() > self.placement.along * (1.0 + 1e-9)
     }
 
     fn place(&mut self, s: f64, partner: Option<Partner>) {

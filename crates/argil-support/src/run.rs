@@ -18,60 +18,105 @@ const UNEVEN: f64 = 0.05;
 /// Lengths that differ by less are equal, as a share of the longest bridge: rounding must not cost a point.
 const ROUNDING: f64 = 1e-9;
 
-/// Arc lengths of the points that hold `run` at the least cost, in order. `cost` prices a point at an arc length;
-/// 1 is a plain point.
+/// The cheapest plan from every place of a run to the run's end.
 ///
-/// Candidates lie at a spacing that divides the longest distance between two points, the first set so that the
-/// greedy plan (every gap as long as it may be) is among them: on a plain run the count is therefore the least possible.
-///
-/// # Complexity
-/// O(candidates × candidates between two points).
-pub(crate) fn fewest_points(run: Run, placement: &Placement, mut cost: impl FnMut(f64) -> f64) -> Vec<f64> {
-    let (between, at_end) = (placement.between(), placement.at_end());
-    let window = (between / placement.step).ceil().clamp(FEWEST_STEPS, MOST_STEPS) as usize;
-    let spacing = between / window as f64;
-    let first = at_end - (at_end / spacing).floor() * spacing;
-    let length = run.length();
-    let rounding = ROUNDING * between;
-    if length < first {
-        return vec![run.start + length / 2.0];
-    }
-    let count = ((length - first + rounding) / spacing) as usize + 1;
-    let place = |k: usize| first + k as f64 * spacing;
-    let uneven = |gap: f64, limit: f64| UNEVEN * (gap / limit).powi(2);
-    let between_cost: Vec<f64> = (0..=window).map(|k| uneven(k as f64 * spacing, between)).collect();
+/// Planned from the end, so that when a point turns out to hold something further along too, the plan for what
+/// comes after that is there already.
+pub(crate) struct RunPlan {
+    run: Run,
+    at_end: f64,
+    rounding: f64,
+    /// Arc from the start of the run to the first candidate, and from one candidate to the next, mm.
+    first: f64,
+    spacing: f64,
+    /// Least cost of a plan for the rest of the run that begins with a point on the candidate.
+    cost: Vec<f64>,
+    /// The point after it; `None` for the last.
+    next: Vec<Option<u32>>,
+}
 
-    // best[k]: least cost of a plan for the run up to candidate k with a point on it; from[k]: the point before.
-    let mut best = vec![f64::INFINITY; count];
-    let mut from: Vec<Option<usize>> = vec![None; count];
-    for k in 0..count {
-        let own = cost(run.start + place(k));
-        if place(k) <= at_end + rounding {
-            best[k] = own + uneven(place(k), at_end);
+impl RunPlan {
+    /// Plans `run`, which is longer than the longest bridge. `price` is what a point at an arc length costs; 1 is a
+    /// plain point.
+    ///
+    /// Candidates lie at a spacing that divides the longest distance between two points, the first set so that
+    /// the greedy plan (every gap as long as it may be) is among them: on a plain run the count is therefore the least
+    /// possible.
+    ///
+    /// # Complexity
+    /// O(candidates × candidates between two points).
+    pub(crate) fn new(run: Run, placement: &Placement, mut price: impl FnMut(f64) -> f64) -> Self {
+        let (between, at_end) = (placement.between(), placement.at_end());
+        let window = (between / placement.step).ceil().clamp(FEWEST_STEPS, MOST_STEPS) as usize;
+        let spacing = between / window as f64;
+        let rounding = ROUNDING * between;
+        let length = run.length();
+        let mut first = at_end - (at_end / spacing).floor() * spacing;
+        if first > length {
+            // Only with a bridge much shorter than what a point holds: one point anywhere does.
+            first = length / 2.0;
         }
-        for before in k.saturating_sub(window)..k {
-            let total = best[before] + between_cost[k - before] + own;
-            if total < best[k] {
-                best[k] = total;
-                from[k] = Some(before);
+        let count = ((length - first + rounding) / spacing) as usize + 1;
+        let between_cost: Vec<f64> = (0..=window).map(|k| uneven(k as f64 * spacing, between)).collect();
+        let mut plan = Self {
+            run,
+            at_end,
+            rounding,
+            first,
+            spacing,
+            cost: vec![f64::INFINITY; count],
+            next: vec![None; count],
+        };
+        for k in (0..count).rev() {
+            let rest = (length - plan.offset(k)).max(0.0);
+            let mut least = if rest <= at_end + rounding { uneven(rest, at_end) } else { f64::INFINITY };
+            for after in k + 1..(k + window + 1).min(count) {
+                let cost = plan.cost[after] + between_cost[after - k];
+                if cost < least {
+                    least = cost;
+                    plan.next[k] = Some(after as u32);
+                }
+            }
+            plan.cost[k] = least + price(plan.place(k));
+        }
+        plan
+    }
+
+    /// The first point of the cheapest plan for the part of the run from `start` on, whose start is held.
+    pub(crate) fn first_from(&self, start: f64) -> Option<usize> {
+        let from = start - self.run.start;
+        let mut best: Option<(f64, usize)> = None;
+        let k = ((from - self.first - self.rounding) / self.spacing).ceil().max(0.0) as usize;
+        for k in k..self.cost.len() {
+            let gap = (self.offset(k) - from).max(0.0);
+            if gap > self.at_end + self.rounding {
+                break;
+            }
+            let cost = self.cost[k] + uneven(gap, self.at_end);
+            if best.is_none_or(|(least, _)| cost < least) {
+                best = Some((cost, k));
             }
         }
+        best.map(|(_, k)| k)
     }
-    let rest = |k: usize| (length - place(k)).max(0.0);
-    let total = |k: usize| best[k] + uneven(rest(k), at_end);
-    let mut last = count - 1;
-    for k in (0..count).rev().take_while(|&k| rest(k) <= at_end + rounding) {
-        if total(k) < total(last) {
-            last = k;
-        }
+
+    /// The point that follows point `k`.
+    pub(crate) fn next(&self, k: usize) -> Option<usize> {
+        self.next[k].map(|k| k as usize)
     }
-    let mut points = vec![run.start + place(last).min(length)];
-    while let Some(before) = from[last] {
-        points.push(run.start + place(before));
-        last = before;
+
+    /// Arc length of candidate `k` on the curve, within the run.
+    pub(crate) fn place(&self, k: usize) -> f64 {
+        self.run.start + self.offset(k).min(self.run.length())
     }
-    points.reverse();
-    points
+
+    fn offset(&self, k: usize) -> f64 {
+        self.first + k as f64 * self.spacing
+    }
+}
+
+fn uneven(gap: f64, limit: f64) -> f64 {
+    UNEVEN * (gap / limit).powi(2)
 }
 
 #[cfg(test)]
@@ -80,6 +125,11 @@ mod tests {
 
     fn placement() -> Placement {
         Placement::for_width(1.5)
+    }
+
+    fn fewest_points(run: Run, placement: &Placement, price: impl FnMut(f64) -> f64) -> Vec<f64> {
+        let plan = RunPlan::new(run, placement, price);
+        std::iter::successors(plan.first_from(run.start), |&k| plan.next(k)).map(|k| plan.place(k)).collect()
     }
 
     #[test]
