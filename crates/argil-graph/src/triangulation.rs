@@ -4,6 +4,7 @@ use std::collections::VecDeque;
 use std::ops::Range;
 
 use glam::DVec2;
+use spade::handles::FixedVertexHandle;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
 use crate::GraphError;
@@ -91,7 +92,15 @@ pub(crate) fn triangulate(points: &[DVec2], loops: &Loops) -> Result<Vec<Triangl
         return Err(TriangulationFailure::Conflict(Conflict::Walls(a, b)));
     }
     if triangulation.num_constraints() != loops.vertex_count() {
-        return Err(TriangulationFailure::Spade);
+        // A wall that runs through a vertex of its own loop is there in pieces.
+        let [a, b] = loops
+            .segments()
+            .find(|&[a, b]| {
+                let [from, to] = [a, b].map(FixedVertexHandle::from_index);
+                !triangulation.exists_constraint(from, to)
+            })
+            .ok_or(TriangulationFailure::Spade)?;
+        return Err(TriangulationFailure::Conflict(Conflict::Walls(a, b)));
     }
 
     let is_free = free_components(&mut components, &sides, loops, triangulation.outer_face().fix().index());

@@ -368,6 +368,26 @@ proptest! {
         }
     }
 
+    /// Weights that vanish beside others, or whose sums are rounded one way here and another way there, make
+    /// detours that cost nothing.
+    #[test]
+    fn a_path_visits_no_vertex_twice_however_sums_are_rounded((count, attachments, edges) in networks()) {
+        let tenths = |weight: f64| if weight < 10.0 { weight * 1e-17 } else { weight / 10.0 };
+        let edges: Vec<(u32, u32, f64)> = edges.iter().map(|&(a, b, w)| (a, b, tenths(w))).collect();
+        let graph = PathGraph::from_edges(vec![DVec2::ZERO; count], &attachments, &[], &edges)?;
+        let among: Vec<u32> = (0..count as u32).collect();
+        let distances = graph.distances(&among);
+        let mut finder = PathFinder::new(&graph);
+        for &from in &among {
+            for &to in &among {
+                let length = distances.get(from as usize, to as usize);
+                if let Some(path) = finder.path(from, to) {
+                    check_path(&graph, from, to, &path, length)?;
+                }
+            }
+        }
+    }
+
     /// Loops on a coarse grid cross, touch and repeat themselves all the time.
     #[test]
     fn unsound_input_is_an_error_and_no_panic(
