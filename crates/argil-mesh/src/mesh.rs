@@ -91,7 +91,7 @@ impl Mesh {
                 }
             }
         }
-        let Welded { vertices, triangles } = weld(&vertices, &triangles);
+        let Welded { vertices, triangles } = weld(vertices, triangles);
         if triangles.is_empty() {
             return Err(MeshError::NoTriangles);
         }

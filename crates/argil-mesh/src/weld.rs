@@ -18,50 +18,41 @@ pub(crate) struct Welded {
     pub(crate) triangles: Vec<[u32; 3]>,
 }
 
-/// Welds in the order of first use, so that the same triangles always give the same indices.
-/// Indices must be valid and coordinates finite.
-pub(crate) fn weld(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Welded {
-    let size = Bounds::of(vertices).size();
+/// Indices must be valid, and the coordinates of the vertices that triangles use finite. Vertices keep
+/// their order, so that the same input always gives the same indices.
+pub(crate) fn weld(vertices: Vec<[f64; 3]>, triangles: Vec<[u32; 3]>) -> Welded {
+    let used = compact(vertices, triangles);
+    let size = Bounds::of(&used.vertices).size();
     let diagonal = size.iter().map(|extent| extent * extent).sum::<f64>().sqrt();
     let mut pool = Pool::new(TOLERANCE * diagonal);
-    let mut renamed = vec![NONE; vertices.len()];
-    let mut kept = Vec::with_capacity(triangles.len());
-    for corners in triangles {
-        let corners = corners.map(|corner| {
-            let name = &mut renamed[corner as usize];
-            if *name == NONE {
-                *name = pool.take(vertices[corner as usize]);
-            }
-            *name
-        });
-        if corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0] {
-            kept.push(corners);
-        }
-    }
-    compact(pool.vertices, kept)
+    let names: Vec<u32> = used.vertices.into_iter().map(|vertex| pool.take(vertex)).collect();
+    let mut triangles = used.triangles;
+    triangles.retain_mut(|corners| {
+        *corners = corners.map(|corner| names[corner as usize]);
+        corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0]
+    });
+    compact(pool.vertices, triangles)
 }
 
-/// Drops the vertices that only degenerate triangles used.
-fn compact(vertices: Vec<[f64; 3]>, mut triangles: Vec<[u32; 3]>) -> Welded {
-    let mut used = vec![false; vertices.len()];
+/// Drops the vertices that no triangle uses.
+fn compact(mut vertices: Vec<[f64; 3]>, mut triangles: Vec<[u32; 3]>) -> Welded {
+    let mut names = vec![NONE; vertices.len()];
     for &corner in triangles.iter().flatten() {
-        used[corner as usize] = true;
+        names[corner as usize] = 0;
     }
-    if used.iter().all(|&is_used| is_used) {
-        return Welded { vertices, triangles };
-    }
-    let mut renamed = vec![NONE; vertices.len()];
-    let mut left = Vec::with_capacity(vertices.len());
-    for (old, vertex) in vertices.into_iter().enumerate() {
-        if used[old] {
-            renamed[old] = left.len() as u32;
-            left.push(vertex);
+    let mut left = 0;
+    for old in 0..vertices.len() {
+        if names[old] != NONE {
+            names[old] = left;
+            vertices[left as usize] = vertices[old];
+            left += 1;
         }
     }
+    vertices.truncate(left as usize);
     for corner in triangles.iter_mut().flatten() {
-        *corner = renamed[*corner as usize];
+        *corner = names[*corner as usize];
     }
-    Welded { vertices: left, triangles }
+    Welded { vertices, triangles }
 }
 
 /// The vertices kept so far, found again by cell. The map is only ever asked, never iterated, so
@@ -120,19 +111,24 @@ mod tests {
     #[test]
     fn signed_zeros_are_one_vertex() {
         let vertices =
-            [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-0.0, -0.0, 0.0], [1.0, 1.0, 0.0]];
-        let welded = weld(&vertices, &[[0, 1, 2], [3, 4, 2]]);
+            vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-0.0, -0.0, 0.0], [1.0, 1.0, 0.0]];
+        let welded = weld(vertices, vec![[0, 1, 2], [3, 4, 2]]);
         assert_eq!(welded.vertices.len(), 4);
         assert_eq!(welded.triangles[1][0], welded.triangles[0][0]);
     }
 
     #[test]
     fn vertices_on_both_sides_of_a_cell_border_are_welded() {
-        let diagonal = 2.0_f64.sqrt();
-        let cell = CELL * TOLERANCE * diagonal;
-        let border = 100.0 * cell;
+        let border = 100.0 * CELL * TOLERANCE * 2.0_f64.sqrt();
         let near = [[border - 1e-8, 0.0, 0.0], [border + 1e-8, 0.0, 0.0]];
-        let vertices = [near[0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], near[1], [0.0, 0.0, 0.0]];
-        assert_eq!(weld(&vertices, &[[0, 1, 2], [3, 2, 4]]).vertices.len(), 4);
+        let vertices = vec![near[0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], near[1], [0.0, 0.0, 0.0]];
+        assert_eq!(weld(vertices, vec![[0, 1, 2], [3, 2, 4]]).vertices.len(), 4);
+    }
+
+    #[test]
+    fn vertices_that_nothing_uses_do_not_count() {
+        let vertices = vec![[f64::INFINITY; 3], [0.0; 3], [f64::NAN; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let welded = weld(vertices, vec![[1, 3, 4]]);
+        assert_eq!((welded.vertices.len(), welded.triangles), (3, vec![[0, 1, 2]]));
     }
 }

@@ -39,7 +39,7 @@ fn binary_stl(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Vec<u8> {
         })
         .collect();
     let mut bytes = Vec::new();
-    stl_io::write_stl(&mut bytes, facets.iter()).unwrap();
+    stl_io::write_stl(&mut bytes, facets.iter()).expect("writing to memory does not fail");
     bytes
 }
 

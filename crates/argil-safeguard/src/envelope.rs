@@ -13,12 +13,14 @@ const FARTHEST: f64 = 1e9;
 /// `outer_walls` holds the filled outermost wall loops of each layer, bottom first; holes in
 /// them count as holes. With d the dilation and ε the shrinking,
 ///
-/// > S_0 = dilate(walls_0, d), S_i = erode(S_{i−1}, ε) ∪ dilate(walls_i, d).
+/// ```text
+/// S_0 = dilate(walls_0, d),   S_i = erode(S_{i−1}, ε) ∪ dilate(walls_i, d)
+/// ```
 ///
 /// Each result contains the exact region of this formula (applied to the result below it) and is larger by at
 /// most a fifth of ε: the curves are grown by a tenth of it and then simplified by no more. So two
-/// things hold without a tolerance: S_i contains everything within d of its walls, and each
-/// point outside S_i is within ε of a point outside S_{i−1}.
+/// things hold without a tolerance: `S_i` contains everything within d of its walls, and each
+/// point outside `S_i` is within ε of a point outside `S_{i−1}`.
 ///
 /// Settings that are negative or not finite count as zero; polygons with coordinates that are not
 /// finite (or beyond 1e9 mm) are left out.
@@ -34,7 +36,7 @@ const FARTHEST: f64 = 1e9;
 /// let wall = polygon![(x: 0.0, y: 0.0), (x: 3.0, y: 0.0), (x: 0.0, y: 3.0)];
 /// let layers = [MultiPolygon(vec![wall]), MultiPolygon(vec![]), MultiPolygon(vec![])];
 /// // A model that ends leaves an envelope that closes in by ε a layer until nothing is left.
-/// let envelope = safeguards(&layers, &SafeguardSettings { dilation: 0.1, shrink: 0.5 });
+/// let envelope = safeguards(&layers, &SafeguardSettings { dilation: 0.1, shrink: 0.7 });
 /// assert_eq!(envelope.iter().map(|s| s.0.len()).collect::<Vec<_>>(), [1, 1, 0]);
 /// ```
 #[must_use]

@@ -1,8 +1,8 @@
 #![doc = include_str!("../README.md")]
 //!
 //! # Where it comes from
-//! Sec. 3.4 of *Continuous deposition*: S_0 is the first layer's outer walls dilated, and each further S_i is
-//! S_{i−1} shrunk by ε_across, united with its own dilated walls. The paper never says by how much the
+//! Sec. 3.4 of *Continuous deposition*: `S_0` is the first layer's outer walls dilated, and each further `S_i` is
+//! `S_{i−1}` shrunk by `ε_across`, united with its own dilated walls. The paper never says by how much the
 //! walls are dilated; [`SafeguardSettings::for_width`] takes one bead width, so that a
 //! strand along the edge of the safeguard just clears the wall's bead.
 //!

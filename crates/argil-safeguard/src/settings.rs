@@ -4,7 +4,7 @@ pub struct SafeguardSettings {
     /// How far the outer walls are dilated, in millimetres: one bead width by default (the paper
     /// does not say). More keeps support farther from the surface and makes it longer.
     pub dilation: f64,
-    /// What the envelope of the layer below shrinks by, in millimetres: ε_across, 0.3 w by
+    /// What the envelope of the layer below shrinks by, in millimetres: `ε_across`, 0.3 w by
     /// default (Sec. 3.4). It must not be more than a strand can lean by from layer to layer, or support that
     /// clears the safeguard above cannot clear it below.
     pub shrink: f64,

@@ -89,7 +89,7 @@ impl Body {
     }
 
     fn mesh(&self) -> Mesh {
-        Mesh::new(self.vertices.clone(), self.triangles.clone()).unwrap()
+        Mesh::new(self.vertices.clone(), self.triangles.clone()).expect("the meshes made here are valid")
     }
 }
 
