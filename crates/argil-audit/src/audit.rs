@@ -3,8 +3,8 @@
 use crate::cycle::{CycleStart, Path, cycle_start, layers};
 use crate::motion::{Motion, motions};
 use crate::settings::Tolerance;
-use crate::strand::pieces;
-use crate::wanted::{Wanted, segment_index};
+use crate::strand::{Piece, pieces};
+use crate::wanted::{Side, Wanted, segment_index};
 use crate::{AuditError, AuditSettings, Figures, Finding, FindingKind, Report};
 use crate::{bead, contact, coverage, crossings, crowding, motion, passage, support, turns};
 use argil_curve::{DVec2, SegmentIndex};
@@ -19,34 +19,29 @@ const MOST_SAMPLES: f64 = 1e7;
 
 /// Measures the print that `program` makes against the model in `mesh`, by geometry alone.
 ///
-/// The first layer of the file is compared with the mesh cut at half a layer above its lowest point, and so on upwards.
-/// Nothing is known of how the file was made. Beads are taken to lie along the moves, with the width of the
-/// settings, whatever the file extrudes. What is wrong with the print is in the report.
+/// The first layer of the file is compared with the mesh cut at half a layer above its lowest point, and so
+/// on upwards. Nothing is known of how the file was made. Beads are taken to lie along the moves, with the
+/// width of the settings, whatever the file extrudes. What is wrong with the print is in the report.
 ///
 /// # Errors
-/// [`AuditError`] for settings that are no lengths, for a program that lays no clay or has coordinates beyond measure, and for a
-/// mesh that cannot be cut.
+/// [`AuditError`] for settings that are no lengths, for a program that lays no clay or has coordinates beyond
+/// measure, and for a mesh that cannot be cut.
 ///
 /// # Complexity
 /// Near linear in the length of the path by the step, plus the polygon operations on each layer's beads.
 ///
 /// # Example
 /// ```
-/// use argil_audit::{AuditSettings, FindingKind, audit};
-/// # use argil_slice::mesh::Mesh;
-/// // A box of 20 × 20 × 1 mm: two layers of one square loop, half a bead inside.
-/// # let corners = (0..8).map(|k| [20.0 * f64::from(k & 1), 20.0 * f64::from(k >> 1 & 1), f64::from(k >> 2)]).collect();
-/// # let sides = vec![[0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4], [2, 6, 3], [3, 6, 7], [0, 4, 2], [2, 4, 6], [1, 3, 5], [3, 7, 5]];
-/// # let mesh = Mesh::new(corners, sides)?;
-/// let square = "G1 X19.25 E1\nG1 Y19.25 E1\nG1 X.75 E1\nG1 Y.75 E1\n";
-/// let text = format!("M83\nG0 X.75 Y.75 Z.5\n;LAYER:0\n{square};LAYER:1\nG1 Z1\n{square}");
-/// let report = audit(&argil_gcode::read_gcode(&text), &mesh, &AuditSettings::default())?;
-/// assert!(report.is_sound(), "{report}");
-///
-/// let hop = text.replace("G1 Z1\n", "G0 Z1 X19.25\nG0 X.75\n");
-/// let report = audit(&argil_gcode::read_gcode(&hop), &mesh, &AuditSettings::default())?;
-/// assert_eq!(report.falls_short()[0].figure, "transfer_moves");
-/// assert_eq!(report.findings_of(FindingKind::Transfer).next().unwrap().layer, 1);
+/// use argil_audit::{AuditError, AuditSettings, audit, gcode::read_gcode, mesh::Mesh};
+/// let sides = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+/// let corners = vec![[0.0; 3], [40.0, 0.0, 0.0], [0.0, 40.0, 0.0], [0.0, 0.0, 40.0]];
+/// let tetrahedron = Mesh::new(corners, sides)?;
+/// let line = read_gcode("M83\nG0 X1 Y1 Z.5\n;LAYER:0\nG1 X30 E9\n");
+/// let report = audit(&line, &tetrahedron, &AuditSettings::default())?;
+/// assert!((report.figures.path_mm - 29.0).abs() < 1e-9 && report.figures.layers == 1);
+/// assert!(!report.is_sound());
+/// let nothing = audit(&read_gcode("G28"), &tetrahedron, &AuditSettings::default());
+/// assert!(matches!(nothing, Err(AuditError::NothingExtruded)));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn audit(program: &Program, mesh: &Mesh, settings: &AuditSettings) -> Result<Report, AuditError> {
@@ -186,7 +181,7 @@ impl Audit<'_> {
         for wall in &wanted.walls {
             self.tally.wall_laid += length(wall) * width;
         }
-        self.tally.wall_swept += bead::swept_area(wanted.walls.iter().map(Vec::as_slice), width);
+        self.tally.wall_swept += wanted.wall_swept;
         let crossings = crossings::crossings(paths, &start, &self.tolerance);
         self.figures.self_crossings += crossings.len();
         for at in crossings {
@@ -234,16 +229,14 @@ impl Audit<'_> {
         if pieces.is_empty() {
             return;
         }
-        let sum = |of: &dyn Fn(&crate::strand::Piece) -> bool| -> f64 {
-            pieces.iter().filter(|p| of(p)).map(|p| p.length).sum()
-        };
+        let sum =
+            |of: &dyn Fn(&Piece) -> bool| -> f64 { pieces.iter().filter(|p| of(p)).map(|p| p.length).sum() };
         let all = sum(&|_| true);
         self.figures.path_mm += all;
         self.figures.model_mm += sum(&|p| p.is_model);
         self.figures.fill_mm += sum(&|p| p.is_fill && !p.is_model);
         self.figures.nonmodel_mm += sum(&|p| p.is_nonmodel());
-        self.figures.inside_model_mm +=
-            sum(&|p| p.is_nonmodel() && p.side == crate::wanted::Side::Inside);
+        self.figures.inside_model_mm += sum(&|p| p.is_nonmodel() && p.side == Side::Inside);
 
         let contact = contact::measure(&pieces, width, t.root);
         self.tally.roots += contact.roots;
@@ -276,7 +269,7 @@ impl Audit<'_> {
             }
         }
         self.tally.laid += all * width;
-        self.tally.swept += bead::swept_area([path.points.as_slice()], width);
+        self.tally.swept += bead::swept_area(&path.points, width);
     }
 
     /// How the layer closes and how it follows the one below.

@@ -7,8 +7,8 @@ use argil_curve::{Crossing, CrossingKind, DVec2, self_crossings};
 /// Steps shorter than this, mm, are rounding: they would turn the ends at a shared vertex about.
 const NO_STEP: f64 = 1e-6;
 
-/// The places where stretches of a path go through one another: segments that cross properly, and, for a layer that is one
-/// closed cycle, vertices that two stretches share with alternating ends.
+/// The places where stretches of a path go through one another: segments that cross properly, and, for a
+/// layer that is one closed cycle, vertices that two stretches share with alternating ends.
 pub(crate) fn crossings(paths: &[Path], start: &CycleStart, tolerance: &Tolerance) -> Vec<DVec2> {
     let mut found: Vec<DVec2> = paths.iter().flat_map(|path| proper(&path.points)).collect();
     if let [path] = paths
@@ -24,11 +24,14 @@ fn proper(points: &[DVec2]) -> impl Iterator<Item = DVec2> {
     self_crossings(points)
         .into_iter()
         // A path is open: the segment that would close it was never printed.
-        .filter(move |c: &Crossing| c.kind == CrossingKind::Proper && c.first != closing && c.second != closing)
+        .filter(move |c: &Crossing| {
+            c.kind == CrossingKind::Proper && c.first != closing && c.second != closing
+        })
         .map(|c| c.point)
 }
 
-/// The step up from the layer below is no part of the cycle; its end would count as a fourth strand at the seam.
+/// The step up from the layer below is no part of the cycle; its end would count as a fourth strand at the
+/// seam.
 fn at_vertices(points: &[DVec2], start: &CycleStart, tolerance: &Tolerance) -> impl Iterator<Item = DVec2> {
     let mut cycle: Vec<DVec2> = Vec::with_capacity(points.len() + 1);
     if start.step_up > tolerance.step_up {

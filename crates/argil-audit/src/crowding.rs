@@ -3,11 +3,12 @@
 use crate::strand::Piece;
 use argil_curve::DVec2;
 
-/// Length of bead, in mm, that overlaps another stretch of the same path, apart from roots and where both are wall.
+/// Length of bead, in mm, that overlaps another stretch of the same path, apart from roots and where both are
+/// wall.
 ///
-/// Every `stride`-th piece looks for the nearest other one that is more than two beads away along the path; where their
-/// distance d is less than w, half of (w − d)/w of the piece's length lies on the other (its other half is counted there). A path
-/// counts as a cycle here, whatever its ends.
+/// Every `stride`-th piece looks for the nearest other one that is more than two beads away along the path;
+/// where their distance d is less than w, half of (w − d)/w of the piece's length lies on the other (its
+/// other half is counted there). A path counts as a cycle here, whatever its ends.
 ///
 /// # Complexity
 /// O(n log n + pairs within one bead of one another).
@@ -36,7 +37,8 @@ pub(crate) fn crowded(pieces: &[Piece], apart: &[bool], width: f64, stride: usiz
     crowded
 }
 
-/// Points in strips as high as the radius, each strip in the order of x: memory does not depend on the extent.
+/// Points in strips as high as the radius, each strip in the order of x: memory does not depend on the
+/// extent.
 struct Places {
     radius: f64,
     /// Strip, point, and the index that the caller knows it by.
@@ -55,7 +57,9 @@ impl Places {
     fn for_each_within(&self, p: DVec2, mut visit: impl FnMut(usize, f64)) {
         let strip = (p.y / self.radius).floor() as i64;
         for strip in strip.saturating_sub(1)..=strip.saturating_add(1) {
-            let first = self.sorted.partition_point(|&(s, q, _)| s < strip || (s == strip && q.x < p.x - self.radius));
+            let first = self
+                .sorted
+                .partition_point(|&(s, q, _)| s < strip || (s == strip && q.x < p.x - self.radius));
             for &(s, q, k) in &self.sorted[first..] {
                 if s != strip || q.x > p.x + self.radius {
                     break;

@@ -18,7 +18,8 @@ pub(crate) struct Path {
 
 /// The paths of every layer that has any, by the layer's number in the file.
 ///
-/// A transfer ends a path; nothing else does, so a file that returns to an earlier layer shows as a long segment.
+/// A transfer ends a path; nothing else does, so a file that returns to an earlier layer shows as a long
+/// segment.
 pub(crate) fn layers(motions: &[Motion]) -> BTreeMap<i64, Vec<Path>> {
     let mut layers: BTreeMap<i64, (Vec<Path>, bool)> = BTreeMap::new();
     for m in motions.iter().filter(|m| m.length() > SAME_POINT && !m.is_extra) {
@@ -53,8 +54,8 @@ pub(crate) struct CycleStart {
     pub(crate) step_up: f64,
 }
 
-/// Looks for the beginning of the cycle in the first stretch of the layer: the first place that the layer's end comes back
-/// to. `None` for a layer without a path.
+/// Looks for the beginning of the cycle in the first stretch of the layer: the first place that the layer's
+/// end comes back to. `None` for a layer without a path.
 pub(crate) fn cycle_start(paths: &[Path], tolerance: &Tolerance) -> Option<CycleStart> {
     let end = *paths.last()?.points.last()?;
     let first = paths.first()?.points.first()?;

@@ -21,7 +21,8 @@ impl Amount {
 
 macro_rules! figures {
     ($($(#[$docs:meta])* $name:ident: $amount:ident($type:ty),)*) => {
-        /// What the audit measures. Lengths in mm; "wall length" is the length of wall path that the model asks for.
+        /// What the audit measures. Lengths in mm; "wall length" is the length of wall path that the model
+        /// asks for.
         #[derive(Clone, Debug, Default, PartialEq)]
         #[cfg_attr(feature = "serde", derive(serde::Serialize))]
         #[non_exhaustive]
@@ -108,8 +109,8 @@ figures! {
     inside_model_mm: Measure(f64),
     /// Non-model strand within one bead of the wall, by wall length.
     contact_per_model_mm: Measure(f64),
-    /// The same outside of the model and further than 4/3 w from where the strand leaves or joins the wall: what
-    /// cleaning means.
+    /// The same outside of the model and further than 4/3 w from where the strand leaves or joins the wall:
+    /// what cleaning means.
     contact_outside_apart_from_roots: Measure(f64),
     /// Places where the strand leaves or joins the wall, a metre of wall.
     roots_per_model_m: Measure(f64),

@@ -71,7 +71,8 @@ pub struct Finding {
     pub kind: FindingKind,
     /// The layer, by the file's own number.
     pub layer: i64,
-    /// Where in the plane, mm: the middle of a stretch, the beginning of a move. `None` for what has no one place.
+    /// Where in the plane, mm: the middle of a stretch, the beginning of a move. `None` for what has no one
+    /// place.
     #[cfg_attr(feature = "serde", serde(serialize_with = "as_pair"))]
     pub at: Option<DVec2>,
     /// How much, in the unit that the kind tells.

@@ -1,4 +1,11 @@
 #![doc = include_str!("../README.md")]
+//!
+//! # How it is built
+//! `motion` reads the moves and counts what breaks the strand, `cycle` makes paths of them and finds where
+//! each layer's cycle begins. `wanted` is what the model asks of a layer, `strand` the path sample by sample
+//! beside it. The measures follow, one a file: `coverage`, `support`, `crossings`, `passage`, `contact`,
+//! `crowding`, `bead`, `turns`; `audit` leads them through the layers and sums up. Terms are those of
+//! Sections 3.2 to 3.4 of the paper.
 #![forbid(unsafe_code)]
 
 mod audit;
@@ -22,6 +29,9 @@ mod support;
 mod turns;
 mod wanted;
 
+pub use argil_curve::DVec2;
+pub use argil_gcode as gcode;
+pub use argil_slice::mesh;
 pub use audit::audit;
 pub use error::AuditError;
 pub use figures::{Amount, Figures};

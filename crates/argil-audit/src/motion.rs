@@ -56,7 +56,8 @@ pub(crate) struct Continuity {
 
 /// The moves from the first to the last that lay clay: what comes before and after is no part of the print.
 ///
-/// Layers are those that the comments tell. A file without such comments has them by the height where a move ends.
+/// Layers are those that the comments tell. A file without such comments has them by the height where a move
+/// ends.
 pub(crate) fn motions(program: &Program, layer_height: f64) -> Vec<Motion> {
     let says = |kind: &str, words: &[&str]| {
         let kind = kind.to_lowercase();

@@ -5,7 +5,8 @@ use argil_curve::DVec2;
 /// Rows beyond this cost more memory than they save tests.
 const MOST_ROWS: usize = 512;
 
-/// The edges of closed rings, sorted into rows by y, so that a point is tested against the edges of its row alone.
+/// The edges of closed rings, sorted into rows by y, so that a point is tested against the edges of its row
+/// alone.
 #[derive(Clone, Debug)]
 pub(crate) struct Region {
     low: f64,

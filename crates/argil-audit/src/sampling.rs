@@ -1,8 +1,8 @@
 //! Samples along a polyline and maximal runs of them.
 //!
-//! The audit samples where a file of any origin must be measured against several tolerances at once. A stretch is known
-//! to about one step at either end, which the tolerances allow for; the planner's own checks are exact, so
-//! the two ways of measuring are independent of one another.
+//! The audit samples where a file of any origin must be measured against several tolerances at once. A
+//! stretch is known to about one step at either end, which the tolerances allow for; the planner's own checks
+//! are exact, so the two ways of measuring are independent of one another.
 
 use argil_curve::DVec2;
 
@@ -47,8 +47,8 @@ pub(crate) struct Run {
     pub(crate) length: f64,
 }
 
-/// The maximal runs among `count` samples, of which `marked` tells which count and `length` how much; `cyclic` joins the
-/// last with the first.
+/// The maximal runs among `count` samples, of which `marked` tells which count and `length` how much;
+/// `cyclic` joins the last with the first.
 pub(crate) fn runs(
     count: usize,
     cyclic: bool,

@@ -24,12 +24,13 @@ pub struct AuditSettings {
     pub layer_height: f64,
     /// Loops of wall asked for: loop k lies (k + ½) w inside the outline. At least 1.
     pub walls: usize,
-    /// How far a bead may lie beside the one below it and still be held, ε_across of the paper's Section 3.2.
-    /// It belongs to the paste: other presets use half of the default 0.3 w, which reports more spans.
+    /// How far a bead may lie beside the one below it and still be held, `ε_across` of the paper's Section
+    /// 3.2. It belongs to the paste: other presets use half of the default 0.3 w, which reports more spans.
     pub across: f64,
-    /// The longest bridge that the paste bears, ε_along of the paper's Section 3.2.
+    /// The longest bridge that the paste bears, `ε_along` of the paper's Section 3.2.
     pub along: f64,
-    /// Spacing of the samples along the path. Half of it doubles the time; spans are known to about two steps.
+    /// Spacing of the samples along the path. Half of it doubles the time; spans are known to about two
+    /// steps.
     pub step: f64,
     /// What must be added to the mesh's x and y to get the file's coordinates.
     pub offset: [f64; 2],
@@ -44,7 +45,7 @@ impl Default for AuditSettings {
 
 impl AuditSettings {
     /// The proportions of the clay profile for a bead of another width, in mm: layers of w/3, one wall,
-    /// ε_across 0.3 w, ε_along 1.6 w, samples every w/15.
+    /// `ε_across` 0.3 w, `ε_along` 1.6 w, samples every w/15.
     pub fn for_width(width: f64) -> Self {
         Self {
             width,
@@ -80,10 +81,12 @@ impl AuditSettings {
     }
 }
 
-/// The tolerances of the measures, in mm, for one bead width. The values in the comments are those at w = 1.5.
+/// The tolerances of the measures, in mm, for one bead width. The values in the comments are those at w =
+/// 1.5.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tolerance {
-    /// 0.12: the wall is laid where a bead's centre lies this near. Room for the file's rounding and for chords.
+    /// 0.12: the wall is laid where a bead's centre lies this near. Room for the file's rounding and for
+    /// chords.
     pub(crate) laid: f64,
     /// 0.1: a bead whose centre lies this near to a wall path belongs to the model.
     pub(crate) on_wall: f64,
@@ -113,7 +116,7 @@ pub(crate) struct Tolerance {
     pub(crate) closed: f64,
     /// 0.03: a step shorter than this is no step.
     pub(crate) step_up: f64,
-    /// 0.02: what the file's rounding may add to ε_across.
+    /// 0.02: what the file's rounding may add to `ε_across`.
     pub(crate) held: f64,
     /// 0.05: the same at the one point where a layer begins.
     pub(crate) start_held: f64,

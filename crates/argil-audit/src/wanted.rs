@@ -1,6 +1,8 @@
-//! What the model asks of a layer: its outline, the wall paths inside it, and where a point lies relative to them.
+//! What the model asks of a layer: its outline, the wall paths inside it, and where a point lies relative to
+//! them.
 
 use crate::AuditSettings;
+use crate::bead::swept_boundary;
 use crate::region::Region;
 use crate::sampling::samples;
 use crate::settings::Tolerance;
@@ -28,6 +30,8 @@ pub(crate) struct Wanted {
     pub(crate) outlines: Vec<Vec<DVec2>>,
     /// Wall paths: the outline inset by (j + ½) w for every wall j. Every ring repeats its first point.
     pub(crate) walls: Vec<Vec<DVec2>>,
+    /// Area that beads along all wall paths sweep, mm².
+    pub(crate) wall_swept: f64,
     wall_index: SegmentIndex,
     /// The outermost wall paths by themselves; `None` when they are all there are.
     outermost_index: Option<SegmentIndex>,
@@ -44,12 +48,15 @@ impl Wanted {
         let outermost = rings(&inner);
         let inner_region = Region::new(&outermost);
         let mut walls = outermost.clone();
+        let mut wall_swept = swept_boundary(&inner, width);
         for j in 1..settings.walls {
-            let loops = rings(&offset(outline, -(j as f64 + 0.5) * width));
-            if loops.is_empty() {
+            let inset = offset(outline, -(j as f64 + 0.5) * width);
+            if inset.0.is_empty() {
                 break;
             }
-            walls.extend(loops);
+            walls.extend(rings(&inset));
+            // The beads of two walls side by side share no area, so the areas add up.
+            wall_swept += swept_boundary(&inset, width);
         }
         let index = |rings: &[Vec<DVec2>]| segment_index(rings.iter().map(Vec::as_slice), width);
         let outermost_index = (walls.len() > outermost.len()).then(|| index(&outermost));
@@ -57,6 +64,7 @@ impl Wanted {
             outlines: rings(outline),
             wall_index: index(&walls),
             walls,
+            wall_swept,
             outermost_index,
             inner: inner_region,
             thin: None,
@@ -71,7 +79,8 @@ impl Wanted {
         if self.is_thin(p) { 0.0 } else { self.path_distance(p) }
     }
 
-    /// The distance that [`wall_distance`](Self::wall_distance) gives, and the side of the wall that `p` lies on.
+    /// The distance that [`wall_distance`](Self::wall_distance) gives, and the side of the wall that `p` lies
+    /// on.
     pub(crate) fn place(&self, p: DVec2, tolerance: &Tolerance) -> (f64, Side) {
         let distance = self.path_distance(p);
         let from_outermost = match &self.outermost_index {
@@ -98,7 +107,12 @@ impl Wanted {
     ///
     /// Most layers have none, and the four offsets that find the parts are dear, so first a look at the
     /// outline itself: what is thin shows there, at its corners above all.
-    fn thin_part(&self, outline: &MultiPolygon<f64>, inner: &MultiPolygon<f64>, t: &Tolerance) -> Option<Region> {
+    fn thin_part(
+        &self,
+        outline: &MultiPolygon<f64>,
+        inner: &MultiPolygon<f64>,
+        t: &Tolerance,
+    ) -> Option<Region> {
         let reach = 0.5 * self.width + t.thin_beyond;
         let index = self.outermost_index.as_ref().unwrap_or(&self.wall_index);
         let is_bare = |p: DVec2| index.nearest_within(p, reach).is_none();
@@ -135,7 +149,8 @@ fn offset(shape: &MultiPolygon<f64>, distance: f64) -> MultiPolygon<f64> {
     if shape.0.is_empty() {
         return shape.clone();
     }
-    shape.buffer_with_style(BufferStyle::new(distance).line_join(LineJoin::Round(0.5 * PI / CHORDS_A_QUARTER)))
+    shape
+        .buffer_with_style(BufferStyle::new(distance).line_join(LineJoin::Round(0.5 * PI / CHORDS_A_QUARTER)))
 }
 
 fn rings(shape: &MultiPolygon<f64>) -> Vec<Vec<DVec2>> {
