@@ -3,8 +3,9 @@
 use crate::hierarchy::Hierarchy;
 use crate::{DistanceMatrix, PathGraph};
 
-/// How many sources a sweep carries side by side. Eight 16-byte registers hold the lengths of one vertex while
-/// all its links are followed; with more lanes they spill, with fewer the links are read more often.
+/// How many sources a sweep carries side by side. With fewer the links are read more often, with more the sweep
+/// climbs through vertices that few of its sources need; 8 to 32 were equally fast on graphs of 900 to 5,300
+/// vertices, and 16 lengths fill half of the vector registers of the plainest x86-64.
 const LANES: usize = 16;
 
 /// The distances of one vertex from the sources of a sweep.
