@@ -4,6 +4,7 @@
 use argil_preview::{Palette, SvgStyle, ViewStyle, layer_svg, overview_svg};
 use argil_strand::{DVec2, Move, Role, Strand, StrandLayer, SupportSource};
 use proptest::prelude::*;
+#[cfg(feature = "png")]
 use resvg::tiny_skia::Pixmap;
 use resvg::usvg::{Group, Node, Options, Paint, Path, Tree};
 
