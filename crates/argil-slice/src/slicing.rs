@@ -10,8 +10,8 @@ use argil_mesh::Mesh;
 /// Outlines smaller than this, in square millimetres, are rounding errors of the cut.
 const LEAST_AREA: f64 = 1e-6;
 
-/// Cuts a mesh into layers and lays the wall paths into each outline (DESIGN 3.1 of the method; Sec. 3.1
-/// of the paper takes both as given).
+/// Cuts a mesh into layers and lays the wall paths into each outline. The paper
+/// takes both as given.
 ///
 /// Layer n is cut at the height (n + ½) h above the lowest point of the mesh and printed at
 /// (n + 1) h. Layers are returned bottom first, also empty ones in

@@ -62,7 +62,7 @@ pub(crate) fn walls(
     let mut losses = Vec::new();
     let mut pieces: Vec<Piece<'_>> = Vec::new();
     let simple: Vec<Polygon<f64>> = outline.iter().map(|polygon| simpler(polygon, settings.width)).collect();
-    for polygon in &simple {
+    for (polygon, original) in simple.iter().zip(outline) {
         let found = pieces.len();
         for wall in 0..settings.walls {
             let distance = (wall as f64 + 0.5) * settings.width;
@@ -74,7 +74,7 @@ pub(crate) fn walls(
         }
         if pieces.len() == found {
             let thin = thin_pieces(polygon, settings);
-            let (at, area) = (inner_point(polygon), polygon.unsigned_area());
+            let (at, area) = (inner_point(original), original.unsigned_area());
             losses.push(match thin.first() {
                 Some(piece) => Loss::Thin { layer, at, area, inset: piece.source.distance },
                 None => Loss::Vanished { layer, at, area },

@@ -267,9 +267,12 @@ proptest! {
     fn loose_triangles_never_break_it(
         points in prop::collection::vec([-9.0..9.0_f64, -9.0..9.0, 0.0..4.0], 9..60),
         on_planes: bool,
+        scale in prop::sample::select(vec![1e-3, 1.0, 1e3]),
+        far in prop::sample::select(vec![0.0, 1e3, 1e7]),
     ) {
         let place = |p: [f64; 3]| if on_planes { p.map(|v| (4.0 * v).round() / 4.0) } else { p };
-        let vertices: Vec<[f64; 3]> = points.into_iter().map(place).collect();
+        let vertices: Vec<[f64; 3]> =
+            points.into_iter().map(place).map(|[x, y, z]| [x * scale + far, y * scale + far, z]).collect();
         let count = vertices.len() as u32;
         let triangles = (0..count - 2).map(|k| [k, k + 1, k + 2]).collect();
         let Ok(mesh) = Mesh::new(vertices, triangles) else { return Ok(()) };
