@@ -41,7 +41,9 @@ pub(crate) struct Reached {
 /// lie side by side in memory.
 pub(crate) struct ReachedGrid {
     origin: DVec2,
-    cell: f64,
+    cells_per_mm: f64,
+    /// The radius of a query in cells, and a little more, lest rounding lose a cell.
+    radius_in_cells: f64,
     columns: usize,
     rows: usize,
     offsets: Vec<u32>,
@@ -49,7 +51,7 @@ pub(crate) struct ReachedGrid {
 }
 
 impl ReachedGrid {
-    /// A grid over the candidates whose cost is finite, for queries of radius `reach`.
+    /// A grid over the candidates whose cost is finite, for queries of radius `reach` mm.
     pub(crate) fn over(points: &[DVec2], costs: &[f64], reach: f64) -> Self {
         let starts = || points.iter().zip(costs).enumerate().filter(|(_, (_, cost))| cost.is_finite());
         let (mut low, mut high, mut count) = (DVec2::INFINITY, DVec2::NEG_INFINITY, 0);
@@ -59,11 +61,10 @@ impl ReachedGrid {
             count += 1;
         }
         if count == 0 {
-            let origin = DVec2::ZERO;
-            return Self { origin, cell: 1.0, columns: 1, rows: 1, offsets: vec![0, 0], reached: Vec::new() };
+            (low, high) = (DVec2::ZERO, DVec2::ZERO);
         }
         // Half the radius: five rows of cells cover a query and little beyond it.
-        let most = (CELLS_PER_CANDIDATE * count) as f64;
+        let most = (CELLS_PER_CANDIDATE * count + 1) as f64;
         let extent = high - low;
         let mut cell = (reach / 2.0).max(extent.max_element() / most).max(f64::MIN_POSITIVE);
         let cells = |cell: f64| (extent / cell).floor() + DVec2::ONE;
@@ -71,8 +72,9 @@ impl ReachedGrid {
             cell *= 1.25;
         }
         let (columns, rows) = (cells(cell).x as usize, cells(cell).y as usize);
+        let (origin, cells_per_mm) = (low, 1.0 / cell);
         let cell_of = |p: DVec2| {
-            let at = (p - low) / cell;
+            let at = (p - origin) * cells_per_mm;
             (at.y as usize).min(rows - 1) * columns + (at.x as usize).min(columns - 1)
         };
         let mut offsets = vec![0_u32; columns * rows + 1];
@@ -89,14 +91,15 @@ impl ReachedGrid {
             reached[*slot as usize] = Reached { point, cost, candidate: k as u32 };
             *slot += 1;
         }
-        Self { origin: low, cell, columns, rows, offsets, reached }
+        let radius_in_cells = reach * cells_per_mm + 1e-6;
+        Self { origin, cells_per_mm, radius_in_cells, columns, rows, offsets, reached }
     }
 
-    /// Visits every start in the cells within `radius` of `p`; the caller measures.
+    /// Visits every start in the cells within the radius of `p`; the caller measures.
     #[inline]
-    pub(crate) fn for_each_near(&self, p: DVec2, radius: f64, mut visit: impl FnMut(&Reached)) {
-        let low = (p - radius - self.origin) / self.cell;
-        let high = (p + radius - self.origin) / self.cell;
+    pub(crate) fn for_each_near(&self, p: DVec2, mut visit: impl FnMut(&Reached)) {
+        let at = (p - self.origin) * self.cells_per_mm;
+        let (low, high) = (at - self.radius_in_cells, at + self.radius_in_cells);
         if !(high.x >= 0.0 && high.y >= 0.0 && low.x < self.columns as f64 && low.y < self.rows as f64) {
             return;
         }

@@ -5,6 +5,7 @@ mod candidates;
 mod chain;
 mod error;
 mod nearest;
+mod plan;
 mod step;
 
 pub use argil_curve::{ClosedCurve, DVec2};

@@ -137,8 +137,9 @@ impl Planner<'_> {
             if partner.is_some_and(|partner| self.above.wrapped(partner.s - s) < run.end - s) {
                 let mut free = self.coverage.free_within(Run { start: s, end: run.end });
                 let last = free.pop_if(|free| free.end == run.end);
-                next =
-                    last.filter(|&last| self.is_too_long(last)).and_then(|last| plan.first_from(last.start));
+                let last = last.filter(|&last| self.is_too_long(last));
+                next = last.and_then(|last| plan.first_from(last.start));
+                pending.extend(last.filter(|_| next.is_none()));
                 pending.extend(free.into_iter().rev());
             }
         }
