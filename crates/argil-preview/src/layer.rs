@@ -104,7 +104,8 @@ impl Frame {
         let points = strand.layers().iter().flat_map(|layer| layer.moves.iter().map(|step| step.to));
         let (low, high) = points.fold((start, start), |(low, high), p| (low.min(p), high.max(p)));
         let margin = if style.margin.is_finite() { style.margin.max(0.0) } else { 0.0 };
-        let space = DVec2::splat(widest / 2.0 + margin);
+        // Numbers are written to the thousandth, so a frame of less would have no size.
+        let space = DVec2::splat((widest / 2.0 + margin).max(0.01));
         let (low, high) = (low - space, high + space);
         let unit = (high - low).max_element() / 100.0;
         // Room for the title above and the scale bar below.
@@ -124,12 +125,15 @@ struct Picture<'a> {
 impl Picture<'_> {
     fn open(&mut self, layer: usize) {
         let Frame { low, size, unit } = self.frame;
-        let scale = if self.style.scale > 0.0 { self.style.scale } else { 1.0 };
+        // Pictures of less than a pixel or of more than any program opens are brought back to what can be seen.
+        let scale = if self.style.scale.is_finite() { self.style.scale } else { SvgStyle::default().scale };
+        let longer = size.max_element();
+        let pixels = size * ((scale * longer).clamp(16.0, 100_000.0) / longer);
         let _ = writeln!(
             self.svg,
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}\" height=\"{}\" viewBox=\"{} {} {} {}\">",
-            Num(size.x * scale),
-            Num(size.y * scale),
+            Num(pixels.x.max(1.0)),
+            Num(pixels.y.max(1.0)),
             Num(low.x),
             Num(low.y),
             Num(size.x),

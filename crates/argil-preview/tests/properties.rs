@@ -4,8 +4,7 @@
 use argil_preview::{Palette, SvgStyle, ViewStyle, layer_svg, overview_svg};
 use argil_strand::{DVec2, Move, Role, Strand, StrandLayer, SupportSource};
 use proptest::prelude::*;
-#[cfg(feature = "png")]
-use resvg::tiny_skia::Pixmap;
+use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Group, Node, Options, Paint, Path, Tree};
 
 /// A square of walls, half of each side support, on two layers; 20 mm wide, centred.
@@ -195,31 +194,70 @@ fn a_long_strand_stays_a_small_file() {
     assert!(coarse < fine && fine < 400_000, "{coarse} {fine}");
 }
 
+/// The strand with all its places multiplied.
+fn stretched(strand: &Strand, by: f64) -> Strand {
+    let layers = strand.layers().iter().cloned().map(|mut layer| {
+        layer.moves.iter_mut().for_each(|step| step.to *= by);
+        layer
+    });
+    Strand::new(strand.start() * by, layers.collect()).unwrap()
+}
+
+/// Found with a scale of 1e-9 and with one that is infinite: the picture had no size, which is no SVG.
+#[test]
+fn any_style_gives_an_svg() {
+    for stretch in [0.0, 1e-6, 1.0, 1e4, 1e9] {
+        let strand = stretched(&square(2), stretch);
+        for odd in [f64::NAN, f64::INFINITY, -1.0, 0.0, 1e-9, 1e9] {
+            for which in 0..6 {
+                let (mut style, mut view) = (SvgStyle::default(), ViewStyle::default());
+                match which {
+                    0 => style.scale = odd,
+                    1 => style.margin = odd,
+                    2 => view.azimuth = odd,
+                    3 => view.elevation = odd,
+                    4 => view.size = odd,
+                    _ => view.most_points = 0,
+                }
+                parse(&layer_svg(&strand, 1, &style));
+                parse(&overview_svg(&strand, &view));
+            }
+        }
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 24, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn any_style_gives_an_svg(
-        odd in prop::sample::select(vec![f64::NAN, f64::INFINITY, -1.0, 0.0, 1e-9, 1e9]), which in 0..6usize,
-        stretch in prop::sample::select(vec![1e-6, 1.0, 1e4]),
+    fn nothing_is_drawn_outside_of_the_paper(
+        corners in prop::collection::vec((-80.0..80.0f64, -80.0..80.0f64), 1..30),
+        width in 0.2..30.0f64, azimuth in -400.0..400.0f64, elevation in 0.0..100.0f64,
     ) {
-        let small = square(2);
-        let layers = small.layers().iter().cloned().map(|mut layer| {
-            layer.moves.iter_mut().for_each(|step| step.to *= stretch);
-            layer
+        let place = |k: usize| DVec2::from(corners[k % corners.len()]);
+        let turn = (1..=corners.len()).map(|k| Move { to: place(k), role: Role::Wall });
+        let layers = (0..3).map(|k| {
+            let seam = (k > 0).then_some(Move { to: place(0), role: Role::Seam });
+            let moves = seam.into_iter().chain(turn.clone()).collect();
+            StrandLayer { index: k, z: (k as f64 + 1.0) * 0.4, height: 0.4, width, moves, supports: vec![] }
         });
-        let strand = Strand::new(small.start() * stretch, layers.collect()).unwrap();
-        let mut style = SvgStyle::default();
-        let mut view = ViewStyle::default();
-        match which {
-            0 => style.scale = odd,
-            1 => style.margin = odd,
-            2 => view.azimuth = odd,
-            3 => view.elevation = odd,
-            4 => view.size = odd,
-            _ => view.most_points = 0,
+        let strand = Strand::new(place(0), layers.collect()).unwrap();
+        let svg = layer_svg(&strand, 1, &SvgStyle { seam: false, ..SvgStyle::default() });
+        let size = parse(&svg).size();
+        for path in all_paths(&svg) {
+            let inked = path.abs_stroke_bounding_box();
+            prop_assert!(inked.left() > -1.0 && inked.top() > -1.0);
+            prop_assert!(inked.right() < size.width() + 1.0 && inked.bottom() < size.height() + 1.0);
         }
-        prop_assert!(Tree::from_str(&layer_svg(&strand, 1, &style), &Options::default()).is_ok());
-        prop_assert!(Tree::from_str(&overview_svg(&strand, &view), &Options::default()).is_ok());
+
+        // Boxes of turned strokes are not tight, so the overview is painted and its border looked at.
+        let view = ViewStyle { azimuth, elevation, bed: false, size: 200.0, ..ViewStyle::default() };
+        let tree = parse(&overview_svg(&strand, &view));
+        let (across, down) = (tree.size().width() as u32, tree.size().height() as u32);
+        let mut picture = Pixmap::new(across.max(1), down.max(1)).unwrap();
+        resvg::render(&tree, Transform::identity(), &mut picture.as_mut());
+        let white = |x, y| picture.pixel(x, y).is_none_or(|p| p.red() == 255 && p.green() == 255 && p.blue() == 255);
+        prop_assert!((0..across).all(|x| white(x, 0) && white(x, down - 1)));
+        prop_assert!((0..down).all(|y| white(0, y) && white(across - 1, y)));
     }
 }
