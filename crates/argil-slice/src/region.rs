@@ -38,11 +38,11 @@ pub(crate) fn dilation(
     offset(region, distance, arc_step(distance, chord_error))
 }
 
-/// Grows by moving the sides outwards and letting them meet in sharp corners, down to 75°; this
-/// undoes a small inset without rounding the corners off. Sharper corners are cut, since where the inset has eaten
-/// a short side the new corner would stick out of the original, at 75° by 0.64 of the distance.
+/// Grows by moving the sides outwards and letting them meet in sharp corners, down to 60°; this
+/// undoes a small inset without rounding the corners off. Sharper corners are cut, since where the
+/// inset has eaten a short side the new corner sticks out of the original, at 60° by up to the distance.
 pub(crate) fn mitred_dilation(region: &MultiPolygon<f64>, distance: f64) -> MultiPolygon<f64> {
-    offset(region, distance, LineJoin::Miter(75_f64.to_radians()))
+    offset(region, distance, LineJoin::Miter(60_f64.to_radians()))
 }
 
 fn offset(region: &impl Buffer<Scalar = f64>, distance: f64, join: LineJoin<f64>) -> MultiPolygon<f64> {
