@@ -13,11 +13,12 @@ pub struct SegmentPart {
 }
 
 impl Segment {
-    /// The part of this segment that lies within `radius` mm of `other`; `None` where no part does, or where this
-    /// segment has no length.
+    /// The part of this segment that lies within `radius` mm of `other`; `None` where no part does, or where
+    /// this segment has no length.
     ///
-    /// All points within a radius of a segment form a capsule: a disc about either end and the rectangle between
-    /// them. A capsule is convex, so the part is one interval: the hull of the three that its pieces give.
+    /// All points within a radius of a segment form a capsule: a disc about either end and the rectangle
+    /// between them. A capsule is convex, so the part is one interval: the hull of the three that its pieces
+    /// give.
     ///
     /// # Example
     /// ```

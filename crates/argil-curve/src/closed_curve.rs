@@ -13,8 +13,8 @@ const MOST_SAMPLES: f64 = 16_777_216.0;
 
 /// A closed polyline: at least two distinct points, cyclic, the first not repeated at the end.
 ///
-/// Two points make a there-and-back line: two segments, twice the length. Arc length s counts from vertex 0 in
-/// millimetres and is cyclic: s and s + length are the same place.
+/// Two points make a there-and-back line: two segments, twice the length. Arc length s counts from vertex 0
+/// in millimetres and is cyclic: s and s + length are the same place.
 ///
 /// # Example
 /// ```
@@ -57,11 +57,12 @@ pub struct NearestOnCurve {
 }
 
 impl ClosedCurve {
-    /// A closed curve through `points`. Consecutive equal points, the last and the first included, count once.
+    /// A closed curve through `points`. Consecutive equal points, the last and the first included, count
+    /// once.
     ///
     /// # Errors
-    /// [`CurveError`] when a coordinate is not finite, when fewer than two distinct points are left, or when the
-    /// length is not a finite number.
+    /// [`CurveError`] when a coordinate is not finite, when fewer than two distinct points are left, or when
+    /// the length is not a finite number.
     pub fn new(points: Vec<DVec2>) -> Result<Self, CurveError> {
         if let Some(vertex) = points.iter().position(|p| !p.is_finite()) {
             return Err(CurveError::NotFinite { vertex });
@@ -186,8 +187,8 @@ impl ClosedCurve {
     }
 
     /// Points evenly spaced along the arc, the first at arc length 0: as few as make the spacing no more than
-    /// `step` (mm), but at least 6, so that even a tiny loop keeps an inside. Point k lies at arc length
-    /// k × length / count. A step that is not positive gives 6; more than 2²⁴ points are never made.
+    /// `step` (mm), but at least 6, so that even a tiny loop keeps an inside. Point k lies at arc length k ×
+    /// length / count. A step that is not positive gives 6; more than 2²⁴ points are never made.
     pub fn resampled(&self, step: f64) -> Vec<DVec2> {
         let wanted = if step > 0.0 { (self.length() / step).ceil() } else { 0.0 };
         let count = wanted.clamp(6.0, MOST_SAMPLES) as usize;
@@ -206,8 +207,8 @@ impl ClosedCurve {
         samples
     }
 
-    /// The same curve, begun at the point at arc length `s`. The point becomes a vertex, unless one lies there
-    /// already (within 1e-9 mm); all vertices stay.
+    /// The same curve, begun at the point at arc length `s`. The point becomes a vertex, unless one lies
+    /// there already (within 1e-9 mm); all vertices stay.
     pub fn rotated_to(&self, s: f64) -> ClosedCurve {
         let OnCurve { segment, t } = self.locate(s);
         let n = self.segment_count();

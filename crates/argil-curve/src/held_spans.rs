@@ -2,8 +2,8 @@
 
 use crate::{ClosedCurve, SegmentIndex};
 
-/// Spans of arc length nearer than this are one span, mm. Two segments that meet at a vertex give two parts whose
-/// ends differ by rounding; without joining, every vertex would be a gap of 1e-16 mm.
+/// Spans of arc length nearer than this are one span, mm. Two segments that meet at a vertex give two parts
+/// whose ends differ by rounding; without joining, every vertex would be a gap of 1e-16 mm.
 const JOIN: f64 = 1e-9;
 
 /// A stretch of a closed curve by arc length; it may run over the end of the curve into its beginning.
@@ -30,11 +30,12 @@ impl ArcSpan {
 
 /// The stretches of `curve` whose points lie within `across` mm of some segment of `index`.
 ///
-/// Exact up to rounding: each segment of the curve is cut with the capsule about each segment near it, nothing is
-/// sampled (the continuous form of Eq. 1 of the paper, which tests samples). The spans are disjoint, in the
-/// order of their starts, and joined over the beginning of the curve; a curve that is held all round gives
-/// one span that starts at 0 and has the curve's full length. Spans that touch, within 1e-9 mm, are one. A curve that
-/// only grazes the distance gives a span without length. A negative or undefined `across` holds nothing.
+/// Exact up to rounding: each segment of the curve is cut with the capsule about each segment near it,
+/// nothing is sampled (the continuous form of Eq. 1 of the paper, which tests samples). The spans are
+/// disjoint, in the order of their starts, and joined over the beginning of the curve; a curve that is held
+/// all round gives one span that starts at 0 and has the curve's full length. Spans that touch, within 1e-9
+/// mm, are one. A curve that only grazes the distance gives a span without length. A negative or undefined
+/// `across` holds nothing.
 ///
 /// # Complexity
 /// O(n + pairs of segments that lie near each other), plus sorting the parts of each segment.
@@ -97,8 +98,8 @@ fn join_round(runs: &mut Vec<(f64, f64)>, length: f64, join: f64) {
 
 /// The stretches of a curve of length `curve_length` between the `held` ones: what [`held_spans`] leaves.
 ///
-/// Nothing held gives one gap that starts at 0 and has the full length. `held` must be disjoint and
-/// ordered by start, as `held_spans` gives it; the gaps come out the same way.
+/// Nothing held gives one gap that starts at 0 and has the full length. `held` must be disjoint and ordered
+/// by start, as `held_spans` gives it; the gaps come out the same way.
 pub fn gaps(curve_length: f64, held: &[ArcSpan]) -> Vec<ArcSpan> {
     if held.is_empty() {
         return vec![ArcSpan { start: 0.0, length: curve_length }];

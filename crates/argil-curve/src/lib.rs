@@ -1,4 +1,9 @@
 //! Closed curves and segment sets: arc length, distances, held spans, crossings.
+//!
+//! Pure geometry in the plane, in millimetres; it knows nothing of layers or clay. The support rule of the
+//! paper (Sec. 3.2, Eq. 1) rests on [`held_spans`], which gives in closed form what the paper samples.
+//!
+#![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
 mod capsule;

@@ -3,11 +3,12 @@
 use crate::{ClosedCurve, Segment};
 use glam::DVec2;
 
-/// Coordinates beyond this are left out of the grid: their squares overflow, so distances to them mean nothing.
+/// Coordinates beyond this are left out of the grid: their squares overflow, so distances to them mean
+/// nothing.
 const LARGEST: f64 = 1e150;
 
-/// Cells allowed for each segment. A finer grid would spend its time on empty cells and, for segments that lie
-/// far apart, its memory too.
+/// Cells allowed for each segment. A finer grid would spend its time on empty cells and, for segments that
+/// lie far apart, its memory too.
 const CELLS_PER_SEGMENT: usize = 4;
 
 /// A set of segments in a uniform grid: built once, then asked often.
@@ -47,9 +48,9 @@ pub struct NearestSegment {
 }
 
 impl SegmentIndex {
-    /// An index over `segments` with square cells of side `cell` mm; about the length of a segment or the usual
-    /// query radius, whichever is larger, serves best. The side grows where the grid would have more than four
-    /// cells a segment; one that is not positive is chosen from the extent of the set.
+    /// An index over `segments` with square cells of side `cell` mm; about the length of a segment or the
+    /// usual query radius, whichever is larger, serves best. The side grows where the grid would have more
+    /// than four cells a segment; one that is not positive is chosen from the extent of the set.
     ///
     /// # Complexity
     /// O(n + cells covered by the segments).
@@ -90,8 +91,8 @@ impl SegmentIndex {
         self.items.is_empty()
     }
 
-    /// The segment nearest to `p`, the one of the lowest index among equals; `None` when the index is empty or
-    /// `p` is not finite.
+    /// The segment nearest to `p`, the one of the lowest index among equals; `None` when the index is empty
+    /// or `p` is not finite.
     ///
     /// # Complexity
     /// O(1) near evenly spread segments; never more than the number of cells and items.
@@ -109,8 +110,9 @@ impl SegmentIndex {
         self.search(p, radius)
     }
 
-    /// Visits every segment that may lie within `radius` mm of `segment`, each once, in an order that depends on
-    /// nothing but the index and the query. Some that lie a cell further are visited too: the caller measures.
+    /// Visits every segment that may lie within `radius` mm of `segment`, each once, in an order that depends
+    /// on nothing but the index and the query. Some that lie a cell further are visited too: the caller
+    /// measures.
     ///
     /// # Complexity
     /// O(cells within the radius + segments in them), without allocation.
@@ -163,8 +165,8 @@ impl SegmentIndex {
         &self.items[self.offsets[cell] as usize..self.offsets[cell + 1] as usize]
     }
 
-    /// Rings of cells about the cell nearest to `p`, until what is left of the grid lies further away than the
-    /// best segment so far.
+    /// Rings of cells about the cell nearest to `p`, until what is left of the grid lies further away than
+    /// the best segment so far.
     fn search(&self, p: DVec2, limit: f64) -> Option<NearestSegment> {
         if self.is_empty() || !p.is_finite() {
             return None;
@@ -223,8 +225,8 @@ fn is_indexable(segment: &Segment) -> bool {
 
 /// The cells: where they lie and which of them a segment, or all within a radius of it, touches.
 ///
-/// Both the filling and the asking use the same footprints, so a segment that lies within the radius always shares a
-/// cell with the query.
+/// Both the filling and the asking use the same footprints, so a segment that lies within the radius always
+/// shares a cell with the query.
 #[derive(Clone, Debug)]
 struct Grid {
     origin: DVec2,
@@ -235,8 +237,8 @@ struct Grid {
     slack: f64,
 }
 
-/// Footprints of up to this many cells take their whole rectangle; larger ones only a run of columns in each row, lest
-/// a long diagonal fill a square.
+/// Footprints of up to this many cells take their whole rectangle; larger ones only a run of columns in each
+/// row, lest a long diagonal fill a square.
 const SMALL: u32 = 16;
 
 /// The cells that a segment touches: within a rectangle, all of it or one run of columns a row.
@@ -282,7 +284,8 @@ impl Grid {
         ((at.x as u32).min(self.columns - 1) as usize, (at.y as u32).min(self.rows - 1) as usize)
     }
 
-    /// The run of cells along one axis that meets the interval from `low` to `high`, measured from the origin.
+    /// The run of cells along one axis that meets the interval from `low` to `high`, measured from the
+    /// origin.
     fn run(&self, low: f64, high: f64, count: u32) -> Option<(u32, u32)> {
         let (first, last) = (low / self.cell, high / self.cell);
         if last < 0.0 || first >= f64::from(count) || first.is_nan() || last.is_nan() {
@@ -331,8 +334,8 @@ impl Grid {
         }
     }
 
-    /// Least distance from `p` to the part of the grid outside the block of cells within `ring` of a cell, less
-    /// the rounding; `None` when the block covers the grid.
+    /// Least distance from `p` to the part of the grid outside the block of cells within `ring` of a cell,
+    /// less the rounding; `None` when the block covers the grid.
     fn distance_beyond(&self, p: DVec2, column: usize, row: usize, ring: usize) -> Option<f64> {
         let p = p - self.origin;
         let (columns, rows) = (self.columns as usize, self.rows as usize);

@@ -35,12 +35,12 @@ pub enum CrossingKind {
     AtVertex,
 }
 
-/// All places where the closed polyline through `points` crosses itself, proper crossings first, then those at
-/// vertices, each in the order of their indices.
+/// All places where the closed polyline through `points` crosses itself, proper crossings first, then those
+/// at vertices, each in the order of their indices.
 ///
 /// Vertices coincide when they are no more than 1e-4 mm apart. Strands that touch without changing sides, or
-/// run along each other, are no crossings; neither is a vertex on the middle of a segment. Points that are not
-/// finite take no part.
+/// run along each other, are no crossings; neither is a vertex on the middle of a segment. Points that are
+/// not finite take no part.
 ///
 /// # Complexity
 /// Near-linear for points spread evenly, since only segments in the same cells of a grid are compared.

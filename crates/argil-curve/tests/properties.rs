@@ -108,7 +108,8 @@ proptest! {
             let p = curve.point_at(s);
             let distance = index.segments().iter().map(|e| e.distance(p)).fold(f64::INFINITY, f64::min);
             let said = held.iter().any(|span| span.contains(s, length));
-            // At the limit itself either answer is right: an error of 1e-9 in arc length moves the distance by less.
+            // At the limit itself either answer is right: an error of 1e-9 in arc length moves the distance
+            // by less.
             if (distance - across).abs() > 2e-9 {
                 prop_assert_eq!(said, distance < across, "at {} of {}: {} mm", s, length, distance);
             }
@@ -210,8 +211,8 @@ proptest! {
         }
     }
 
-    /// Pulling the vertices of one strand a little to either side of a crossing at a shared vertex cannot undo it: a
-    /// proper crossing appears near by on one side at least.
+    /// Pulling the vertices of one strand a little to either side of a crossing at a shared vertex cannot
+    /// undo it: a proper crossing appears near by on one side at least.
     #[test]
     fn a_crossing_at_a_vertex_survives_a_shift(angles in [0.0..TAU, 0.0..TAU, 0.0..TAU, 0.0..TAU], shift in 0.0..TAU) {
         let mut turned = angles;

@@ -5,8 +5,8 @@ use argil_curve::{ClosedCurve, DVec2};
 /// Candidates of one layer are never more than this, whatever the spacing; the answer would be no better.
 const MOST_CANDIDATES: f64 = 1e6;
 
-/// Cells of the grid for each candidate. A candidate's strand fills few cells, so most are empty; their number bounds
-/// the time to clear them.
+/// Cells of the grid for each candidate. A candidate's strand fills few cells, so most are empty; their
+/// number bounds the time to clear them.
 const CELLS_PER_CANDIDATE: usize = 8;
 
 /// Evenly spaced places along a cycle.
@@ -37,8 +37,8 @@ pub(crate) struct Reached {
     pub(crate) candidate: u32,
 }
 
-/// The starts of one layer that some chain reaches, sorted into cells, row by row, so that the starts in a run of cells
-/// lie side by side in memory.
+/// The starts of one layer that some chain reaches, sorted into cells, row by row, so that the starts in a
+/// run of cells lie side by side in memory.
 pub(crate) struct ReachedGrid {
     origin: DVec2,
     cells_per_mm: f64,

@@ -4,21 +4,22 @@ use crate::SeamError;
 use crate::plan::Plan;
 use argil_curve::{ClosedCurve, DVec2};
 
-/// Rounds in which only layers that the cheapest chain enters by a crossing step are tested for crossings. Few layers ever need
-/// it, and testing all takes as long as the plan itself; after this many rounds all are tested.
+/// Rounds in which only layers that the cheapest chain enters by a crossing step are tested for crossings.
+/// Few layers ever need it, and testing all takes as long as the plan itself; after this many rounds all are
+/// tested.
 const TRUSTING_ROUNDS: usize = 32;
 
 /// The limits of a chain of starts. Lengths in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SeamSettings {
-    /// `ε_across` of the paste: a start lies no further than this from the cycle below. Smaller is safer and may leave no
-    /// chain.
+    /// `ε_across` of the paste: a start lies no further than this from the cycle below. Smaller is safer and
+    /// may leave no chain.
     pub across: f64,
-    /// Longest step from the end of one layer to the start of the next: 0.73 w, 1.1 mm for clay. Longer steps reach more
-    /// starts, but a step rises while it moves, and a long one sags.
+    /// Longest step from the end of one layer to the start of the next: 0.73 w, 1.1 mm for clay. Longer steps
+    /// reach more starts, but a step rises while it moves, and a long one sags.
     pub reach: f64,
-    /// Spacing of the places that are tried along each cycle: w / 6, 0.25 mm for clay. Finer finds shorter steps; the time
-    /// grows with the square of the inverse.
+    /// Spacing of the places that are tried along each cycle: w / 6, 0.25 mm for clay. Finer finds shorter
+    /// steps; the time grows with the square of the inverse.
     pub spacing: f64,
 }
 
@@ -46,22 +47,26 @@ impl Default for SeamSettings {
     }
 }
 
-/// For each cycle (bottom first) the arc length of its start, such that the strand climbs in the cheapest steps.
+/// For each cycle (bottom first) the arc length of its start, such that the strand climbs in the cheapest
+/// steps.
 ///
-/// The strand of a layer is closed: it ends where it started, and rises from there to the start of the next. In the chain
+/// The strand of a layer is closed: it ends where it started, and rises from there to the start of the next.
+/// In the chain
 /// - each start but the lowest lies within `across` of the cycle below: it is held;
 /// - each step is no longer than `reach`;
-/// - each step touches the cycle that it leads to nowhere but at its end, or running straight along the strand it ends on:
-///   it crosses nothing;
-/// - the sum of the squared steps and of `cost(layer, point)` for each start is the least possible among starts at the
-///   spacing of the settings. A cost that is infinite or not a number forbids a start.
+/// - each step touches the cycle that it leads to nowhere but at its end, or running straight along the
+///   strand it ends on: it crosses nothing;
+/// - the sum of the squared steps and of `cost(layer, point)` for each start is the least possible among
+///   starts at the spacing of the settings. A cost that is infinite or not a number forbids a start.
 ///
-/// The paper lets each layer begin near the last (Sec. 3.1), which leaves starts over nothing; dynamic programming over all
-/// layers finds none where a chain exists. The layers may be any closed curves; no cycles give no starts.
+/// The paper has each layer start at a point that the layer below contains (Sec. 3.3) and does not say how it is
+/// found; the nearest one, layer by layer, ends up over nothing. Dynamic programming over all layers does not
+/// where a chain exists. The layers may be any closed curves; no cycles give no starts.
 ///
 /// # Errors
-/// [`SeamError::Setting`] for settings that are not positive numbers (`across` may be 0), [`SeamError::NoStart`] when the cost forbids the whole
-/// lowest layer, [`SeamError::NoStep`] with the layer and the place when no chain leads further.
+/// [`SeamError::Setting`] for settings that are not positive numbers (`across` may be 0),
+/// [`SeamError::NoStart`] when the cost forbids the whole lowest layer, [`SeamError::NoStep`] with the layer
+/// and the place when no chain leads further.
 ///
 /// # Complexity
 /// O(n k) for n candidates in all and k within reach of one. 250 layers of 4,000 candidates take about 0.1 s.

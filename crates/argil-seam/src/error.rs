@@ -17,7 +17,8 @@ pub enum SeamError {
     /// The extra cost forbids every start of the lowest layer.
     #[error("the cost forbids every start of the lowest layer")]
     NoStart,
-    /// No start of a layer is held and within reach of a possible start of the layer below by a step that crosses nothing.
+    /// No start of a layer is held and within reach of a possible start of the layer below by a step that
+    /// crosses nothing.
     #[error(
         "no start of layer {layer} can be reached from layer {}: its path passes ({:.3}, {:.3}) at {gap:.3} mm",
         layer - 1, below.x, below.y
@@ -27,8 +28,8 @@ pub enum SeamError {
         layer: usize,
         /// The possible start of the layer below that is nearest to the layer's cycle, mm.
         below: DVec2,
-        /// Its distance from the cycle, mm. When this is within reach, the starts near it are not held, forbidden by the
-        /// cost, or only to be had by crossing the cycle.
+        /// Its distance from the cycle, mm. When this is within reach, the starts near it are not held,
+        /// forbidden by the cost, or only to be had by crossing the cycle.
         gap: f64,
     },
 }

@@ -1,4 +1,8 @@
 //! One start point a layer, so that the strand climbs in short steps that cross nothing.
+//!
+//! Sec. 3.3 of the paper has each layer start at a point that the layer below contains, and does not say which.
+//!
+#![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
 mod candidates;

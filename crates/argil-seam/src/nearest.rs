@@ -1,13 +1,14 @@
-//! The start rule that the text of the paper suggests.
+//! The plainest start rule that the text of the paper allows.
 
 use argil_curve::ClosedCurve;
 
 /// For each cycle (bottom first) the arc length of its start by the greedy rule: the topmost starts at its
 /// vertex 0, each one below at its point nearest to the start above.
 ///
-/// The paper has each layer begin near the last and says no more. The rule looks at one pair of layers at a time, so it walks into
-/// places that nothing holds (23 of 120 starts on a test model), takes steps as long as they come out, and lets them cross the
-/// cycle. It is here to be compared with [`seam_chain`](crate::seam_chain).
+/// The paper asks for a start that the layer below contains (Sec. 3.3); this is the plainest reading. The rule looks
+/// at one pair of layers at a time, so it walks into places that nothing holds (23 of 120 starts on a test
+/// model), takes steps as long as they come out, and lets them cross the cycle. It is here to be compared with
+/// [`seam_chain`](crate::seam_chain).
 ///
 /// # Complexity
 /// O(n) for n segments in all.

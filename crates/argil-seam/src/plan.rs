@@ -19,9 +19,10 @@ struct Layer {
 
 /// The costs of all starts.
 ///
-/// To test each step for crossings takes as long as all the rest, and the cheapest chain hardly ever crosses anything. So
-/// steps are trusted at first, and tested in the layers where the cheapest chain turns out to cross. A test can only
-/// raise costs; a start keeps its cost as long as the one below that it comes from does.
+/// To test each step for crossings takes as long as all the rest, and the cheapest chain hardly ever crosses
+/// anything. So steps are trusted at first, and tested in the layers where the cheapest chain turns out to
+/// cross. A test can only raise costs; a start keeps its cost as long as the one below that it comes from
+/// does.
 pub(crate) struct Plan<'a> {
     cycles: &'a [ClosedCurve],
     settings: &'a SeamSettings,
@@ -79,7 +80,8 @@ impl<'a> Plan<'a> {
         Ok(())
     }
 
-    /// The starts whose chain comes from one whose cost has risen or, in a layer newly tested, by a step that is not clear.
+    /// The starts whose chain comes from one whose cost has risen or, in a layer newly tested, by a step that
+    /// is not clear.
     fn stale_starts(&self, layer: usize, risen: &[bool], newly: bool) -> Vec<usize> {
         if !newly && !risen.contains(&true) {
             return Vec::new();
@@ -94,7 +96,8 @@ impl<'a> Plan<'a> {
         (0..here.costs.len()).filter(|&k| here.costs[k].is_finite() && is_stale(k)).collect()
     }
 
-    /// Finds the cheapest chains to the stale starts of a layer anew; says which starts cost more than before.
+    /// Finds the cheapest chains to the stale starts of a layer anew; says which starts cost more than
+    /// before.
     fn mend(&mut self, layer: usize, stale: &[usize]) -> Vec<bool> {
         let mut risen = vec![false; self.layers[layer].costs.len()];
         if stale.is_empty() {
@@ -117,7 +120,8 @@ impl<'a> Plan<'a> {
         risen
     }
 
-    /// Whether the step from `start` to candidate `k` crosses nothing; taken for granted where steps are not tested.
+    /// Whether the step from `start` to candidate `k` crosses nothing; taken for granted where steps are not
+    /// tested.
     fn is_sound(&self, layer: usize, k: usize, start: DVec2) -> bool {
         let here = &self.layers[layer];
         here.tested.as_ref().is_none_or(|index| {
@@ -201,8 +205,9 @@ impl<'a> Ascent<'a> {
         Self { reached, cycle, ground: OnceCell::new(), settings }
     }
 
-    /// The start below from which `p` is reached at the least cost, which is that of its chain and the squared step; the
-    /// lowest candidate among equals. `None` if there is none within reach or `p` is not held.
+    /// The start below from which `p` is reached at the least cost, which is that of its chain and the
+    /// squared step; the lowest candidate among equals. `None` if there is none within reach or `p` is not
+    /// held.
     fn cheapest(&self, p: DVec2) -> Option<Reached> {
         self.cheapest_after(p, |_, _| true)
     }
@@ -234,7 +239,8 @@ impl<'a> Ascent<'a> {
         (best.cost.is_finite() && self.is_held(p, nearest.sqrt())).then_some(best)
     }
 
-    /// Whether `p` lies within `across` of the cycle, given its distance from the nearest candidate on it that was seen.
+    /// Whether `p` lies within `across` of the cycle, given its distance from the nearest candidate on it
+    /// that was seen.
     fn is_held(&self, p: DVec2, nearest: f64) -> bool {
         // A candidate lies on the cycle, so a near one decides; a far one proves nothing.
         let across = self.settings.across;

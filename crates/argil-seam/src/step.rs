@@ -2,8 +2,8 @@
 
 use argil_curve::{ClosedCurve, Segment, SegmentIndex};
 
-/// A step and a strand nearer than this touch, mm: twice the grid of the printed output, so that rounding both to the
-/// grid cannot make them cross.
+/// A step and a strand nearer than this touch, mm: twice the grid of the printed output, so that rounding
+/// both to the grid cannot make them cross.
 const TOUCH: f64 = 2e-4;
 
 /// A point this near a segment lies on it, mm; only rounding parts them.
@@ -33,8 +33,8 @@ pub(crate) fn is_clear_by(index: &SegmentIndex, step: &Segment, s: f64, cycle: &
     clear
 }
 
-/// Whether segment `k` of the cycle is in the way of the step. A step may touch the cycle at its own end, and it may run
-/// along the strand that it ends on; it may neither cross nor touch it elsewhere.
+/// Whether segment `k` of the cycle is in the way of the step. A step may touch the cycle at its own end, and
+/// it may run along the strand that it ends on; it may neither cross nor touch it elsewhere.
 fn blocks(step: &Segment, s: f64, cycle: &ClosedCurve, k: usize, strand: &Segment) -> bool {
     let end = cycle.on_segment(k, step.end);
     if end.distance <= ON_STRAND {

@@ -233,7 +233,8 @@ fn the_cost_moves_the_seam_to_the_cheap_side() {
     assert!(tower.iter().zip(&starts).all(|(cycle, &s)| cycle.point_at(s).y >= 4.0));
 }
 
-/// Greedy from the top walks down the drifting finger; the only chain that is held all the way runs elsewhere.
+/// Greedy from the top walks down the drifting finger; the only chain that is held all the way runs
+/// elsewhere.
 #[test]
 fn the_chain_keeps_out_of_dead_ends() {
     // A wall that stands still, and a finger at its side that reaches 2 mm further with each layer.

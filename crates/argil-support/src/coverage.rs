@@ -2,7 +2,8 @@
 
 use argil_curve::{ArcSpan, ClosedCurve, DVec2, Segment, SegmentIndex};
 
-/// A stretch of the curve that nothing holds yet; `end` may lie beyond the length of the curve, by up to one turn.
+/// A stretch of the curve that nothing holds yet; `end` may lie beyond the length of the curve, by up to one
+/// turn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Run {
     pub(crate) start: f64,
@@ -37,7 +38,8 @@ impl<'a> Coverage<'a> {
         self.held.is_empty()
     }
 
-    /// Holds every stretch of the curve within `radius` of `p`, on whichever strand, and `further` along it either way.
+    /// Holds every stretch of the curve within `radius` of `p`, on whichever strand, and `further` along it
+    /// either way.
     pub(crate) fn hold_about(&mut self, p: DVec2, radius: f64, further: f64) {
         let point = Segment::new(p, p);
         let index = self.index;
@@ -100,7 +102,8 @@ impl<'a> Coverage<'a> {
         free
     }
 
-    /// All stretches that nothing holds, each whole: one that reaches over the beginning of the curve is one run.
+    /// All stretches that nothing holds, each whole: one that reaches over the beginning of the curve is one
+    /// run.
     pub(crate) fn runs(&self) -> Vec<Run> {
         let length = self.curve.length();
         let Some(&(first, _)) = self.held.first() else { return vec![Run { start: 0.0, end: length }] };

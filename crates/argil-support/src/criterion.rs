@@ -2,12 +2,15 @@
 
 use argil_curve::{ArcSpan, ClosedCurve, SegmentIndex, gaps, held_spans};
 
-/// How far a strand of paste may lie beside the strand below, and how far it may bridge (Sec. 3.2 of the paper).
+/// How far a strand of paste may lie beside the strand below, and how far it may bridge (Sec. 3.2 of the
+/// paper).
 ///
-/// Both belong to the paste and are found by test prints; the default is the paper's clay at a bead of 1.5 mm.
+/// Both belong to the paste and are found by test prints; the default is the paper's clay at a bead of 1.5
+/// mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Criterion {
-    /// `ε_across`: a point is held when some point of the layer below lies within this of it in the plane, mm.
+    /// `ε_across`: a point is held when some point of the layer below lies within this of it in the plane,
+    /// mm.
     pub across: f64,
     /// `ε_along`: the longest stretch of path that may be held nowhere between its ends, mm.
     pub along: f64,
@@ -26,15 +29,16 @@ impl Default for Criterion {
     }
 }
 
-/// The stretches of `above` that hang: every maximal run held nowhere by `below` that is longer than `ε_along`, in
-/// the order of their starts.
+/// The stretches of `above` that hang: every maximal run held nowhere by `below` that is longer than
+/// `ε_along`, in the order of their starts.
 ///
-/// The paper tests samples one `ε_along` apart and lets each lean on a contact up to half of it away, on either side;
-/// two samples may lean away from each other, so gaps of up to twice `ε_along` pass. Here a point is held when it lies within
-/// `ε_across` of the layer below, the held stretches are exact, and no run between them may be longer than `ε_along`.
+/// The paper tests samples one `ε_along` apart and lets each lean on a contact up to half of it away, on
+/// either side; two samples may lean away from each other, so gaps of up to twice `ε_along` pass. Here a
+/// point is held when it lies within `ε_across` of the layer below, the held stretches are exact, and no run
+/// between them may be longer than `ε_along`.
 ///
-/// A curve that nothing holds is one span of its full length, however short it is: it rests on nothing, so there is no
-/// bridge to measure. A limit that is not a number holds nothing.
+/// A curve that nothing holds is one span of its full length, however short it is: it rests on nothing, so
+/// there is no bridge to measure. A limit that is not a number holds nothing.
 ///
 /// # Complexity
 /// That of [`held_spans`]: near-linear.

@@ -1,4 +1,9 @@
 //! Which spans of a deposition path hang in the air, and the fewest points that hold them.
+//!
+//! Sec. 3.2 and Eq. 1 of the paper, with the criterion made continuous: the paper's samples let gaps of up to
+//! twice its own limit pass.
+//!
+#![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
 mod coverage;

@@ -7,8 +7,8 @@ use crate::run::RunPlan;
 use crate::sharing::{Partner, Sharing};
 use argil_curve::{ClosedCurve, DVec2, SegmentIndex, held_spans};
 
-/// Points are never planned closer than this share of the curve's length: a bridge of 1e-12 mm is a mistake in a
-/// setting, and must not fill the memory.
+/// Points are never planned closer than this share of the curve's length: a bridge of 1e-12 mm is a mistake
+/// in a setting, and must not fill the memory.
 const SHORTEST_BRIDGE: f64 = 1e-6;
 
 /// A place in the layer below through which, or close by which, the path must pass.
@@ -16,30 +16,32 @@ const SHORTEST_BRIDGE: f64 = 1e-6;
 pub struct SupportPoint {
     /// Where the path below is best laid, mm.
     pub position: DVec2,
-    /// The points of the curve above that it holds, one, or two of different strands. The path below must pass within
-    /// [`Placement::slack`] of each; `position` is within that of all of them.
+    /// The points of the curve above that it holds, one, or two of different strands. The path below must
+    /// pass within [`Placement::slack`] of each; `position` is within that of all of them.
     pub needs: Vec<DVec2>,
 }
 
 /// The fewest points that hold what `walls` do not hold of `above`.
 ///
-/// Every closed curve below that contains the walls and passes within [`Placement::slack`] of every need satisfies the
-/// [`Criterion`](crate::Criterion) of the placement exactly, wherever within the slack it passes. None is placed where walls
-/// hold, and none on a run no longer than [`Placement::along`].
+/// Every closed curve below that contains the walls and passes within [`Placement::slack`] of every need
+/// satisfies the [`Criterion`](crate::Criterion) of the placement exactly, wherever within the slack it
+/// passes. None is placed where walls hold, and none on a run no longer than [`Placement::along`].
 ///
-/// The steps (in place of the samples at a fixed stride in Sec. 3.2 of the paper, which leave gaps of up to twice
-/// `ε_along`):
+/// The steps (in place of the samples at a fixed stride in Sec. 3.2 of the paper, which leave gaps of up to
+/// twice `ε_along`):
 /// 1. The stretches within `across` of the walls are held, exactly, not by samples. The rest are runs.
-/// 2. For each run longer than `along`: the fewest points by dynamic programming, where a point on the tip of a hairpin
-///    costs more, so that gaps are centred on tips, and one that holds two strands less.
-/// 3. Each point placed holds all strand within `cover` of its needs. Runs that come later are what is then left.
+/// 2. For each run longer than `along`: the fewest points by dynamic programming, where a point on the tip of
+///    a hairpin costs more, so that gaps are centred on tips, and one that holds two strands less.
+/// 3. Each point placed holds all strand within `cover` of its needs. Runs that come later are what is then
+///    left.
 ///
-/// A curve that no wall holds gets a first point where it is least like a tip, even if it is tiny, and is then one run
-/// from there round to there. A placement with a number that is negative or not finite places nothing.
+/// A curve that no wall holds gets a first point where it is least like a tip, even if it is tiny, and is
+/// then one run from there round to there. A placement with a number that is negative or not finite places
+/// nothing.
 ///
 /// # Complexity
-/// O(n log n) for evenly spread curves; strands that run in pairs for long stretches of one run add the square of the
-/// number of shared points, times the candidates between two points.
+/// O(n log n) for evenly spread curves; strands that run in pairs for long stretches of one run add the
+/// square of the number of shared points, times the candidates between two points.
 ///
 /// # Example
 /// ```
@@ -117,8 +119,8 @@ impl Planner<'_> {
         }
     }
 
-    /// Places points on a stretch that nothing holds. Where a shared point holds something further along the same
-    /// stretch too, the stretch before that is `pending` and the plan goes on behind it.
+    /// Places points on a stretch that nothing holds. Where a shared point holds something further along the
+    /// same stretch too, the stretch before that is `pending` and the plan goes on behind it.
     fn serve_free(&mut self, run: Run, pending: &mut Vec<Run>) {
         if !self.is_too_long(run) {
             return;
@@ -145,8 +147,8 @@ impl Planner<'_> {
         }
     }
 
-    /// Whether a stretch that nothing holds is longer than a bridge may be. Between placed points stretches are as long as
-    /// allowed, up to rounding.
+    /// Whether a stretch that nothing holds is longer than a bridge may be. Between placed points stretches
+    /// are as long as allowed, up to rounding.
     fn is_too_long(&self, run: Run) -> bool {
         run.length() > self.placement.along * (1.0 + 1e-9)
     }
@@ -159,7 +161,8 @@ impl Planner<'_> {
         for &need in &needs {
             self.coverage.hold_about(need, self.placement.cover, further);
         }
-        // With a cover of nothing the discs may miss the strand by rounding; its own place is held all the same.
+        // With a cover of nothing the discs may miss the strand by rounding; its own place is held all the
+        // same.
         for s in std::iter::once(s).chain(partner.map(|partner| partner.s)) {
             self.coverage.hold(s - self.placement.held, s + self.placement.held);
         }

@@ -10,9 +10,9 @@ const FEWEST_STEPS: f64 = 8.0;
 /// Most candidates between two neighbouring points; finer steps change nothing but the time.
 const MOST_STEPS: f64 = 256.0;
 
-/// Cost of a gap of full length, in points, the cost growing with the square of the gap: among plans of equal count the
-/// even one leaves the most room for error. Small enough never to be worth a point: one more point lowers the
-/// sum of squares by less than 1.
+/// Cost of a gap of full length, in points, the cost growing with the square of the gap: among plans of equal
+/// count the even one leaves the most room for error. Small enough never to be worth a point: one more point
+/// lowers the sum of squares by less than 1.
 const UNEVEN: f64 = 0.05;
 
 /// Lengths that differ by less are equal, as a share of the longest bridge: rounding must not cost a point.
@@ -20,8 +20,8 @@ const ROUNDING: f64 = 1e-9;
 
 /// The cheapest plan from every place of a run to the run's end.
 ///
-/// Planned from the end, so that when a point turns out to hold something further along too, the plan for what
-/// comes after that is there already.
+/// Planned from the end, so that when a point turns out to hold something further along too, the plan for
+/// what comes after that is there already.
 pub(crate) struct RunPlan {
     run: Run,
     at_end: f64,
@@ -36,12 +36,12 @@ pub(crate) struct RunPlan {
 }
 
 impl RunPlan {
-    /// Plans `run`, which is longer than the longest bridge. `price` is what a point at an arc length costs; 1 is a
-    /// plain point.
+    /// Plans `run`, which is longer than the longest bridge. `price` is what a point at an arc length costs;
+    /// 1 is a plain point.
     ///
-    /// Candidates lie at a spacing that divides the longest distance between two points, the first set so that
-    /// the greedy plan (every gap as long as it may be) is among them: on a plain run the count is therefore the least
-    /// possible.
+    /// Candidates lie at a spacing that divides the longest distance between two points, the first set so
+    /// that the greedy plan (every gap as long as it may be) is among them: on a plain run the count is
+    /// therefore the least possible.
     ///
     /// # Complexity
     /// O(candidates × candidates between two points).

@@ -21,8 +21,8 @@ pub(crate) struct Sharing<'a> {
     along: f64,
     /// Arc length from one sample to the next.
     spacing: f64,
-    /// For evenly spaced samples the arc length of the nearest place on another strand within reach, held or not. Runs
-    /// are planned anew as points are shared, so what never changes is asked for once.
+    /// For evenly spaced samples the arc length of the nearest place on another strand within reach, held or
+    /// not. Runs are planned anew as points are shared, so what never changes is asked for once.
     twins: Vec<Option<f64>>,
 }
 
@@ -33,7 +33,8 @@ impl<'a> Sharing<'a> {
         let spacing = curve.length() / samples.len() as f64;
         let (apart, along) = (placement.apart, placement.along);
         let mut sharing = Self { curve, index, reach, apart, along, spacing, twins: Vec::new() };
-        // Most segments have no other strand near them, and to ask once a segment is cheaper than at every sample.
+        // Most segments have no other strand near them, and to ask once a segment is cheaper than at every
+        // sample.
         let company: Vec<bool> = (0..curve.segment_count()).map(|k| sharing.has_company(k)).collect();
         let mut segment = 0;
         let twin = |(k, &p): (usize, &DVec2)| {
@@ -85,7 +86,8 @@ impl<'a> Sharing<'a> {
         self.nearest_twin(self.curve.point_at(s), s, |other| self.is_open(other, coverage))
     }
 
-    /// Whether a point at `s`, in 0 to two lengths of the curve, is likely to have a partner, judged by the sample next to it.
+    /// Whether a point at `s`, in 0 to two lengths of the curve, is likely to have a partner, judged by the
+    /// sample next to it.
     pub(crate) fn has_partner(&self, s: f64, coverage: &Coverage<'_>) -> bool {
         let sample = (s / self.spacing).round() as usize % self.twins.len();
         self.twins[sample].is_some_and(|twin| self.is_open(twin, coverage))

@@ -9,13 +9,14 @@ const SHORTEST_STRIDE: f64 = 1e-6;
 
 /// Support points by the letter of Sec. 3.2 and Eq. 1 of the paper, for comparison.
 ///
-/// The curve is walked at a stride of `ε_along`. A sample is held when some contact lies less than half of `ε_along` away along
-/// the arc, a contact being a point of the curve within `ε_across` of a wall or of a support point already placed; a sample
-/// that is not held becomes a support point. Contacts are found exactly here, where an implementation would sample.
+/// The curve is walked at a stride of `ε_along`. A sample is held when some contact lies less than half of
+/// `ε_along` away along the arc, a contact being a point of the curve within `ε_across` of a wall or of a
+/// support point already placed; a sample that is not held becomes a support point. Contacts are found
+/// exactly here, where an implementation would sample.
 ///
-/// Not to be printed from: two neighbouring samples may lean on contacts on their far sides, so stretches of up to twice
-/// `ε_along` hang although every sample is held. [`place_supports`](crate::place_supports) leaves none. A stride that is not positive, or a
-/// limit that is not finite, places nothing.
+/// Not to be printed from: two neighbouring samples may lean on contacts on their far sides, so stretches of
+/// up to twice `ε_along` hang although every sample is held. [`place_supports`](crate::place_supports) leaves
+/// none. A stride that is not positive, or a limit that is not finite, places nothing.
 ///
 /// # Complexity
 /// O(n log n) for evenly spread curves.

@@ -145,7 +145,8 @@ proptest! {
         }
     }
 
-    /// On one straight run of length l the count is the least n with 2 (along + held) + (n - 1) (along + 2 held) >= l.
+    /// On one straight run of length l the count is the least n with 2 (along + held) + (n - 1) (along + 2
+    /// held) >= l.
     #[test]
     fn a_straight_run_gets_the_fewest(length in 2.0..150.0, turn in 0.0..TAU) {
         let placement = Placement::for_width(W);
@@ -244,7 +245,8 @@ fn a_short_loop_that_rests_somewhere_needs_nothing() {
 
 #[test]
 fn gaps_are_centred_on_a_hairpin() {
-    // A finger 2 mm wide that reaches 5.5 mm beyond the wall; its tip hangs whatever stands below it at y = 0.
+    // A finger 2 mm wide that reaches 5.5 mm beyond the wall; its tip hangs whatever stands below it at y =
+    // 0.
     let points = [(-10.0, 0.0), (5.5, 0.0), (5.5, 0.6), (-10.0, 0.6)].map(DVec2::from);
     let finger = ClosedCurve::new(points.to_vec()).unwrap();
     let walls = [(0.0, 0.6), (-10.0, 0.6), (-10.0, 0.0), (0.0, 0.0)].map(DVec2::from);
