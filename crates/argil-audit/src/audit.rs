@@ -178,10 +178,8 @@ impl Audit<'_> {
             let step_up = if k == 0 { start.step_up } else { 0.0 };
             self.path(number, path, &wanted, step_up, whole);
         }
-        for wall in &wanted.walls {
-            self.tally.wall_laid += length(wall) * width;
-        }
-        self.tally.wall_swept += wanted.wall_swept;
+        self.tally.wall_laid += wanted.wall_clay.0;
+        self.tally.wall_swept += wanted.wall_clay.1;
         let crossings = crossings::crossings(paths, &start, &self.tolerance);
         self.figures.self_crossings += crossings.len();
         for at in crossings {

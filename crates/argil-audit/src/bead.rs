@@ -2,7 +2,7 @@
 
 use argil_curve::DVec2;
 use geo::algorithm::buffer::{BufferStyle, LineCap, LineJoin};
-use geo::{Area, Buffer, Coord, LineString, MultiLineString, MultiPolygon};
+use geo::{Area, Buffer, Coord, LineString, MultiLineString, MultiPolygon, Simplify};
 use std::f64::consts::PI;
 
 /// Pieces of about this many beads are swept one by one.
@@ -12,6 +12,9 @@ const PIECE: f64 = 6.0;
 /// and figures of doubled clay, small differences of large areas, show it: the number is a convention that
 /// keeps them comparable. The sliver less keeps it at eight when it is computed as π over this angle.
 const CHORD: f64 = PI / 8.0 * (1.0 - 1e-9);
+
+/// In widths: how far the boundary of a region may be moved before it is swept, to rid it of points.
+const SMOOTHING: f64 = 0.001;
 
 /// Cosine of a turn after which a path runs back on itself.
 const REVERSAL: f64 = -0.999;
@@ -23,18 +26,21 @@ pub(crate) fn swept_area(line: &[DVec2], width: f64) -> f64 {
     MultiLineString::new(pieces(line, PIECE * width)).buffer_with_style(style).unsigned_area()
 }
 
-/// Area in mm² of the bead along the whole boundary of `region`: what lies within half a bead of it on either
-/// side.
+/// The bead along the whole boundary of `region`: length times width, and the area swept, both in mm².
 ///
-/// The same as sweeping the rings, but two offsets of a region are much cheaper than one of its rings when
-/// those have arcs of half a bead's radius, which sweeping shrinks to points. Wall paths do: they go round
-/// concave corners so.
-pub(crate) fn swept_boundary(region: &MultiPolygon<f64>, width: f64) -> f64 {
+/// The area is what lies within half a bead of the boundary on either side. Two offsets of a region are much
+/// cheaper than one of its rings when those have arcs of half a bead's radius, which sweeping shrinks to
+/// points. Wall paths do: they go round concave corners so. The boundary is rid of needless points first;
+/// length and area are both taken after that, since what counts is their small difference.
+pub(crate) fn laid_and_swept(region: &MultiPolygon<f64>, width: f64) -> (f64, f64) {
     if region.0.is_empty() {
-        return 0.0;
+        return (0.0, 0.0);
     }
+    let region = region.simplify(SMOOTHING * width);
+    let rings = region.iter().flat_map(|p| std::iter::once(p.exterior()).chain(p.interiors()));
+    let length: f64 = rings.flat_map(LineString::lines).map(|line| line.dx().hypot(line.dy())).sum();
     let offset = |by: f64| region.buffer_with_style(BufferStyle::new(by).line_join(LineJoin::Round(CHORD)));
-    offset(0.5 * width).unsigned_area() - offset(-0.5 * width).unsigned_area()
+    (length * width, offset(0.5 * width).unsigned_area() - offset(-0.5 * width).unsigned_area())
 }
 
 /// Cuts a polyline at the vertices where its length passes a multiple of `piece`, and where it turns back on

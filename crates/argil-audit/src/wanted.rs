@@ -2,7 +2,7 @@
 //! them.
 
 use crate::AuditSettings;
-use crate::bead::swept_boundary;
+use crate::bead::laid_and_swept;
 use crate::region::Region;
 use crate::sampling::samples;
 use crate::settings::Tolerance;
@@ -30,8 +30,8 @@ pub(crate) struct Wanted {
     pub(crate) outlines: Vec<Vec<DVec2>>,
     /// Wall paths: the outline inset by (j + ½) w for every wall j. Every ring repeats its first point.
     pub(crate) walls: Vec<Vec<DVec2>>,
-    /// Area that beads along all wall paths sweep, mm².
-    pub(crate) wall_swept: f64,
+    /// Beads along all wall paths: length times width, and the area that they sweep, mm².
+    pub(crate) wall_clay: (f64, f64),
     wall_index: SegmentIndex,
     /// The outermost wall paths by themselves; `None` when they are all there are.
     outermost_index: Option<SegmentIndex>,
@@ -48,7 +48,7 @@ impl Wanted {
         let outermost = rings(&inner);
         let inner_region = Region::new(&outermost);
         let mut walls = outermost.clone();
-        let mut wall_swept = swept_boundary(&inner, width);
+        let (mut laid, mut swept) = laid_and_swept(&inner, width);
         for j in 1..settings.walls {
             let inset = offset(outline, -(j as f64 + 0.5) * width);
             if inset.0.is_empty() {
@@ -56,7 +56,9 @@ impl Wanted {
             }
             walls.extend(rings(&inset));
             // The beads of two walls side by side share no area, so the areas add up.
-            wall_swept += swept_boundary(&inset, width);
+            let further = laid_and_swept(&inset, width);
+            laid += further.0;
+            swept += further.1;
         }
         let index = |rings: &[Vec<DVec2>]| segment_index(rings.iter().map(Vec::as_slice), width);
         let outermost_index = (walls.len() > outermost.len()).then(|| index(&outermost));
@@ -64,7 +66,7 @@ impl Wanted {
             outlines: rings(outline),
             wall_index: index(&walls),
             walls,
-            wall_swept,
+            wall_clay: (laid, swept),
             outermost_index,
             inner: inner_region,
             thin: None,
