@@ -1,1 +1,52 @@
 //! Turns a mesh into one continuous deposition path: no transfer move from the first gram of clay to the last.
+//!
+//! A clay printer cannot stop extruding and hop. This crate plans prints that never have to: for every layer one
+//! closed cycle through all walls, with support for the layer above built into the same strand, and from layer to layer one
+//! short step that extrudes while it rises. The method is that of Hergel, Hinz, Lefebvre and Thomaszewski,
+//! *Extrusion-Based Ceramics Printing with Strictly-Continuous Deposition* (SIGGRAPH Asia 2019), mended where
+//! its text leads to unsound prints.
+//!
+//! [`Planner`] runs the stages; each of them is a crate of its own and stands behind a trait of [`stages`], so
+//! that any of them can be replaced. [`Planner::default`] has argil's own, [`literal::planner`] the paper's text as it
+//! stands.
+//!
+//! ```
+//! use argil::{Planner, Settings};
+//!
+//! let cup = argil_models::by_name("columns").expect("a bundled model").to_stl();
+//! let mesh = argil::mesh::read_stl(&cup)?;
+//! let plan = Planner::default().plan(&mesh, &Settings::for_width(2.0))?;
+//! assert!(plan.strand.length() > 0.0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! Lengths are in millimetres. The same input gives the same bytes.
+#![forbid(unsafe_code)]
+
+mod blunt;
+mod clearance;
+mod climb;
+mod descent;
+mod error;
+mod hold;
+pub mod literal;
+mod plan;
+mod planner;
+mod settings;
+pub mod stages;
+
+pub use argil_curve as curve;
+pub use argil_elastic as elastic;
+pub use argil_gcode as gcode;
+pub use argil_mesh as mesh;
+pub use argil_route as route;
+pub use argil_safeguard as safeguard;
+pub use argil_seam as seam;
+pub use argil_slice as slice;
+pub use argil_strand as strand;
+pub use argil_support as support;
+
+pub use error::{LayerFault, PlanError};
+pub use plan::{LayerReport, Plan, StageTimes};
+pub use planner::{Planner, Progress};
+pub use settings::{Material, Settings};

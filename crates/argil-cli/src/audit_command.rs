@@ -1,0 +1,45 @@
+//! `argil audit`.
+
+use std::process::ExitCode;
+
+use argil::gcode::read_gcode;
+use argil::mesh::Mesh;
+use argil::Settings;
+use argil_audit::{AuditSettings, Report, audit};
+
+use crate::args::AuditArgs;
+use crate::failure::{FINDINGS, Failure};
+use crate::{input, output};
+
+/// Measures a file and tells what it found.
+pub(crate) fn run(args: &AuditArgs) -> Result<ExitCode, Failure> {
+    let settings = input::settings(&args.bead)?;
+    let mesh = input::model(&args.model, args.place)?;
+    let bytes = std::fs::read(&args.gcode).map_err(|source| Failure::reading(&args.gcode, source))?;
+    let report = measure(&String::from_utf8_lossy(&bytes), &mesh, &settings)
+        .map_err(|source| Failure::input(&args.gcode.display().to_string(), source))?;
+    println!("{report}");
+    if let Some(path) = &args.json {
+        let json = serde_json::to_vec_pretty(&report)
+            .map_err(|source| Failure::Output { what: "report", source: Box::new(source) })?;
+        output::write(path, &json)?;
+    }
+    Ok(if report.is_sound() { ExitCode::SUCCESS } else { ExitCode::from(FINDINGS) })
+}
+
+/// The audit of a g-code text against a placed mesh.
+pub(crate) fn measure(
+    text: &str,
+    mesh: &Mesh,
+    settings: &Settings,
+) -> Result<Report, argil_audit::AuditError> {
+    let criterion = settings.criterion();
+    let wanted = AuditSettings {
+        layer_height: settings.layer_height,
+        walls: settings.walls,
+        across: criterion.across,
+        along: criterion.along,
+        ..AuditSettings::for_width(settings.width)
+    };
+    audit(&read_gcode(text), mesh, &wanted)
+}

@@ -1,0 +1,70 @@
+//! Failures: what went wrong, and the exit status that tells a script.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// The plan stands or the file was read, but there are findings.
+pub(crate) const FINDINGS: u8 = 4;
+const BAD_INPUT: u8 = 3;
+const USAGE: u8 = 2;
+
+/// Why the program stops.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// A file cannot be read or written.
+    File { path: PathBuf, doing: &'static str, source: std::io::Error },
+    /// The model or g-code is not usable.
+    Input { name: String, source: Box<dyn std::error::Error> },
+    /// There is no such bundled model.
+    Sample { name: String },
+    /// An option has a value that cannot be.
+    Option { source: Box<dyn std::error::Error> },
+    /// The model has no plan.
+    Plan { name: String, source: argil::PlanError },
+    /// The result cannot be written as g-code or a picture.
+    Output { what: &'static str, source: Box<dyn std::error::Error> },
+}
+
+impl Failure {
+    pub(crate) fn reading(path: &Path, source: std::io::Error) -> Self {
+        Self::File { path: path.to_owned(), doing: "read", source }
+    }
+
+    pub(crate) fn writing(path: &Path, source: std::io::Error) -> Self {
+        Self::File { path: path.to_owned(), doing: "write", source }
+    }
+
+    pub(crate) fn input(name: &str, source: impl std::error::Error + 'static) -> Self {
+        Self::Input { name: name.to_owned(), source: Box::new(source) }
+    }
+
+    pub(crate) fn exit_code(&self) -> ExitCode {
+        ExitCode::from(match self {
+            Self::Sample { .. } => USAGE,
+            Self::Plan { source, .. } if !is_input(source) => FINDINGS,
+            _ => BAD_INPUT,
+        })
+    }
+}
+
+/// Whether a plan fails because of what it was given, and not in a layer.
+fn is_input(error: &argil::PlanError) -> bool {
+    use argil::PlanError::{Nothing, Setting, Slice};
+    matches!(error, Setting { .. } | Slice(_) | Nothing)
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::File { path, doing, source } => write!(f, "cannot {doing} {}: {source}", path.display()),
+            Self::Input { name, source } => write!(f, "{name}: {source}"),
+            Self::Sample { name } => {
+                write!(f, "there is no bundled model `{name}`; `argil samples` lists them")
+            }
+            Self::Option { source } => write!(f, "{source}"),
+            Self::Plan { name, source } => write!(f, "{name}: {source}"),
+            Self::Output { what, source } => write!(f, "the {what} cannot be written: {source}"),
+        }
+    }
+}

@@ -1,0 +1,23 @@
+//! Files that are written whole or not at all.
+
+use std::fs;
+use std::path::Path;
+
+use crate::failure::Failure;
+
+/// Writes a file beside its place and moves it there, so that the final name never stands for half a file.
+pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let mut partial = path.as_os_str().to_owned();
+    partial.push(".part");
+    let partial = Path::new(&partial);
+    fs::write(partial, bytes).and_then(|()| fs::rename(partial, path)).map_err(|source| {
+        // What is left of a failed write is of no use; that it may be gone already is no second failure.
+        drop(fs::remove_file(partial));
+        Failure::writing(path, source)
+    })
+}
+
+/// Makes a folder and those above it.
+pub(crate) fn folder(path: &Path) -> Result<(), Failure> {
+    fs::create_dir_all(path).map_err(|source| Failure::writing(path, source))
+}

@@ -1,0 +1,89 @@
+//! `argil plan`.
+
+use std::process::ExitCode;
+
+use argil::gcode::{GcodeSettings, write_gcode};
+use argil::mesh::Mesh;
+use argil::{Plan, PlanError, Planner, Settings, literal};
+
+use crate::args::PlanArgs;
+use crate::audit_command::measure;
+use crate::failure::{FINDINGS, Failure};
+use crate::progress::PlanBar;
+use crate::report::{PlanReport, is_finding, summary};
+use crate::{input, output};
+
+/// Longest side of the overview picture, pixels.
+const PICTURE: u32 = 1600;
+
+/// Plans a model and writes everything that was asked for.
+pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
+    let settings = input::settings(&args.bead)?;
+    let mesh = input::model(&args.model, args.place)?;
+    let plan = plan(&mesh, &settings, args.paper_exact)
+        .map_err(|source| Failure::Plan { name: args.model.clone(), source })?;
+
+    let gcode = write_gcode(&plan.strand, &gcode_settings(args, &settings))
+        .map_err(|source| Failure::Output { what: "g-code", source: Box::new(source) })?;
+    let audit = if args.no_audit {
+        None
+    } else {
+        let report = measure(&gcode, &mesh, &settings);
+        Some(report.map_err(|source| Failure::Output { what: "audit", source: Box::new(source) })?)
+    };
+    output::write(&args.output, gcode.as_bytes())?;
+    pictures(args, &plan)?;
+    if let Some(path) = &args.strand {
+        output::write(path, &json(&plan.strand)?)?;
+    }
+    if let Some(path) = &args.report {
+        output::write(path, &json(&PlanReport::new(&args.model, settings, &plan, audit.as_ref()))?)?;
+    }
+
+    eprintln!("{}", summary(&plan));
+    let mut findings = plan.losses.iter().any(is_finding);
+    if let Some(report) = &audit {
+        findings |= !report.is_sound();
+        let short = report.falls_short();
+        if short.is_empty() {
+            eprintln!("audit: sound");
+        }
+        for shortfall in short {
+            eprintln!("audit: {} is {}, the limit is {}", shortfall.figure, shortfall.value, shortfall.limit);
+        }
+    }
+    Ok(if findings { ExitCode::from(FINDINGS) } else { ExitCode::SUCCESS })
+}
+
+fn plan(mesh: &Mesh, settings: &Settings, paper_exact: bool) -> Result<Plan, PlanError> {
+    let bar = PlanBar::new();
+    let mut follow = |progress| bar.follow(progress);
+    let plan = if paper_exact {
+        literal::planner().plan_observed(mesh, settings, &mut follow)
+    } else {
+        Planner::default().plan_observed(mesh, settings, &mut follow)
+    };
+    bar.finish();
+    plan
+}
+
+fn gcode_settings(args: &PlanArgs, settings: &Settings) -> GcodeSettings {
+    let header = [
+        ("model", args.model.clone()),
+        ("width", settings.width.to_string()),
+        ("layer height", settings.layer_height.to_string()),
+        ("walls", settings.walls.to_string()),
+        ("across", settings.material.across.to_string()),
+        ("along", settings.material.along.to_string()),
+    ];
+    GcodeSettings {
+        header: header.into_iter().map(|(key, value)| (key.to_owned(), value)).collect(),
+        ..GcodeSettings::default()
+    }
+}
+
+fn pictures(_a: &PlanArgs, _p: &Plan) -> Result<(), Failure> { Ok(()) }
+
+fn json(value: &impl serde::Serialize) -> Result<Vec<u8>, Failure> {
+    serde_json::to_vec_pretty(value).map_err(|source| Failure::Output { what: "report", source: Box::new(source) })
+}

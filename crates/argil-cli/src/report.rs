@@ -1,0 +1,120 @@
+//! What the program says about a plan: a summary for people, JSON for programs.
+
+use argil::slice::Loss;
+use argil::strand::Role;
+use argil::{LayerReport, Plan, Settings};
+use argil_audit::Report;
+use serde::Serialize;
+
+/// Version of the JSON layout; it rises when a field changes its meaning or goes.
+const SCHEMA: u32 = 1;
+
+/// The report as it is written.
+#[derive(Serialize)]
+pub(crate) struct PlanReport<'a> {
+    schema: u32,
+    program: &'static str,
+    version: &'static str,
+    model: &'a str,
+    settings: Settings,
+    layers: usize,
+    transfers: usize,
+    strand_mm: f64,
+    wall_mm: f64,
+    support_mm: f64,
+    connection_mm: f64,
+    seam_mm: f64,
+    volume_mm3: f64,
+    per_layer: &'a [LayerReport],
+    losses: Vec<LossReport>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    audit: Option<&'a Report>,
+}
+
+/// Something of the model that is not printed as it is.
+#[derive(Serialize)]
+struct LossReport {
+    kind: &'static str,
+    layer: usize,
+    at: [f64; 2],
+    measure: f64,
+}
+
+impl<'a> PlanReport<'a> {
+    pub(crate) fn new(model: &'a str, settings: Settings, plan: &'a Plan, audit: Option<&'a Report>) -> Self {
+        let strand = &plan.strand;
+        Self {
+            schema: SCHEMA,
+            program: "argil",
+            version: env!("CARGO_PKG_VERSION"),
+            model,
+            settings,
+            layers: strand.layers().len(),
+            // A strand is one polyline: there is no way to hold a transfer in it.
+            transfers: 0,
+            strand_mm: strand.length(),
+            wall_mm: strand.length_of(Role::Wall),
+            support_mm: strand.length_of(Role::Support),
+            connection_mm: strand.length_of(Role::Connection),
+            seam_mm: strand.length_of(Role::Seam),
+            volume_mm3: strand.volume(),
+            per_layer: &plan.layers,
+            losses: plan.losses.iter().map(loss).collect(),
+            audit,
+        }
+    }
+}
+
+fn loss(loss: &Loss) -> LossReport {
+    let (kind, measure) = match *loss {
+        Loss::OpenOutline { length, .. } => ("open outline, mm left out", length),
+        Loss::Thin { area, .. } => ("thinner than a bead, mm²", area),
+        Loss::Vanished { area, .. } => ("too small to print, mm²", area),
+        Loss::Branch { area, .. } => ("branch thinner than a bead, mm²", area),
+        Loss::Unsound { length, .. } => ("wall left out, mm", length),
+        _ => ("other", 0.0),
+    };
+    LossReport { kind, layer: loss.layer(), at: [loss.at().x, loss.at().y], measure }
+}
+
+/// Whether a loss means that something is missing that a bead could have printed.
+pub(crate) fn is_finding(loss: &Loss) -> bool {
+    matches!(loss, Loss::OpenOutline { .. } | Loss::Unsound { .. })
+}
+
+/// The summary at the end of a plan.
+pub(crate) fn summary(plan: &Plan) -> String {
+    let strand = &plan.strand;
+    let model = strand.length_of(Role::Wall);
+    let rest = strand.length() - model;
+    let mut text = format!(
+        "{} layers in one strand of {:.2} m, {:.1} cm³ of paste, 0 transfers\n\
+         model {:.2} m, beside the model {:.2} m (ratio {:.3})\n",
+        strand.layers().len(),
+        strand.length() / 1e3,
+        strand.volume() / 1e3,
+        model / 1e3,
+        rest / 1e3,
+        rest / model.max(1e-9),
+    );
+    for (kind, count) in losses(plan) {
+        text.push_str(&format!("note: {count} places: {kind}\n"));
+    }
+    let times: Vec<String> =
+        plan.times.listed().iter().map(|(name, time)| format!("{name} {:.0}", time.as_secs_f64() * 1e3)).collect();
+    text.push_str(&format!("time in ms: {} = {:.0}", times.join(", "), plan.times.total().as_secs_f64() * 1e3));
+    text
+}
+
+/// How many losses there are of each kind.
+fn losses(plan: &Plan) -> Vec<(String, usize)> {
+    let mut kinds: Vec<(String, usize)> = Vec::new();
+    for loss in plan.losses.iter().map(loss) {
+        let name = loss.kind.split(',').next().unwrap_or_default();
+        match kinds.iter_mut().find(|(kind, _)| kind == name) {
+            Some((_, count)) => *count += 1,
+            None => kinds.push((name.to_owned(), 1)),
+        }
+    }
+    kinds
+}

@@ -1,0 +1,212 @@
+//! The pass from the top layer to the bottom: each layer holds the one above.
+
+use std::time::{Duration, Instant};
+
+use argil_curve::{ClosedCurve, DVec2, SegmentIndex};
+use argil_elastic::{Carrier, Clearance, Path};
+use argil_route::{Cycle, Demand, LayerInput, Leg, Wall};
+use argil_slice::Layer;
+use argil_support::SupportPoint;
+use geo_types::MultiPolygon;
+
+use crate::blunt::blunted;
+use crate::clearance::SafeguardField;
+use crate::error::LayerFault;
+use crate::hold::{Check, Fault};
+use crate::stages::{Route, Smooth, Support};
+use crate::{LayerReport, PlanError, Progress, Settings, StageTimes};
+
+/// A layer that is planned.
+#[derive(Clone, Debug)]
+pub(crate) struct PlannedLayer {
+    pub(crate) report: LayerReport,
+    pub(crate) z: f64,
+    pub(crate) curve: ClosedCurve,
+    pub(crate) legs: Vec<Leg>,
+    pub(crate) supports: Vec<SupportPoint>,
+}
+
+/// The stages that a descent uses, and what it has learnt so far.
+pub(crate) struct Descent<'a, U, R, E> {
+    pub(crate) settings: &'a Settings,
+    pub(crate) support: &'a mut U,
+    pub(crate) route: &'a mut R,
+    pub(crate) smooth: &'a mut E,
+    pub(crate) times: &'a mut StageTimes,
+    /// Whether every layer must pass the exact check.
+    pub(crate) checked: bool,
+}
+
+impl<U: Support, R: Route, E: Smooth> Descent<'_, U, R, E> {
+    /// Plans all layers, the top one first; the result is bottom first. Layers above the first wall from the top
+    /// have nothing to print; below it, every layer has at least something to hold.
+    pub(crate) fn run(
+        &mut self,
+        layers: &[Layer],
+        safeguards: &[MultiPolygon<f64>],
+        observe: &mut dyn FnMut(Progress),
+    ) -> Result<Vec<PlannedLayer>, PlanError> {
+        let mut planned: Vec<PlannedLayer> = Vec::with_capacity(layers.len());
+        for (layer, safeguard) in layers.iter().zip(safeguards).rev() {
+            let above = planned.last().map(|p| &p.curve);
+            if above.is_none() && layer.walls.is_empty() {
+                continue;
+            }
+            let near = layer.walls.first().map(|w| w.points[0]).or(above.map(|c| c.points()[0]));
+            let done = self.layer(layer, safeguard, above).map_err(|(fault, at)| PlanError::Layer {
+                layer: layer.index,
+                near: at.or(near).unwrap_or_default(),
+                fault,
+            })?;
+            planned.push(done);
+            observe(Progress::Layer { index: layer.index });
+        }
+        planned.reverse();
+        Ok(planned)
+    }
+
+    fn layer(
+        &mut self,
+        layer: &Layer,
+        safeguard: &MultiPolygon<f64>,
+        above: Option<&ClosedCurve>,
+    ) -> Result<PlannedLayer, (LayerFault, Option<DVec2>)> {
+        let settings = self.settings;
+        let curves: Vec<ClosedCurve> = layer
+            .walls
+            .iter()
+            .map(|wall| ClosedCurve::new(wall.points.clone()))
+            .collect::<Result<_, _>>()
+            .map_err(|e| (e.into(), None))?;
+        let walls: Vec<Wall<'_>> =
+            layer.walls.iter().map(|w| Wall { points: &w.points, parent: w.parent }).collect();
+        let wall_index = SegmentIndex::of_curves(&curves, settings.width);
+
+        let support = &mut self.support;
+        let supports = timed(&mut self.times.support, || {
+            above.map_or_else(Vec::new, |above| support.points(above, &wall_index, settings))
+        });
+        let demands: Vec<Demand> =
+            supports.iter().map(|s| Demand { position: s.position, anchors: s.needs.clone() }).collect();
+
+        let field = SafeguardField::new(safeguard, 2.0 * settings.width);
+        let above_index = above.map(|c| SegmentIndex::of_curves([c], settings.width));
+        let rings = field.polylines();
+        let input = LayerInput {
+            walls: &walls,
+            demands: &demands,
+            safeguard: &rings,
+            above: above_index.as_ref(),
+        };
+        let route = &mut self.route;
+        let candidate = timed(&mut self.times.route, || route.cycle(&input, settings))
+            .map_err(|fault| (fault.into(), None))?;
+
+        let (mut cycle, pulled_back) = self.smoothed(&candidate, &supports, &field, &curves, above)?;
+        let check =
+            Check { above, criterion: settings.criterion(), width: settings.width, grid: settings.grid };
+        timed(&mut self.times.check, || {
+            for _ in 0..3 {
+                let Some(mut next) = blunted(&cycle, settings.width) else { break };
+                check.rounded(&mut next.points, &next.fixed);
+                if self.checked && check.fault(&next.points).is_some() {
+                    break;
+                }
+                cycle = next;
+            }
+        });
+        for (vertex, demand) in &cycle.carriers {
+            debug_assert!(*vertex < cycle.points.len() && *demand < supports.len());
+        }
+        let report = LayerReport {
+            index: layer.index,
+            walls: walls.len(),
+            supports: supports.len(),
+            roots: cycle.roots,
+            wall_length: cycle.length_of(Leg::Wall),
+            free_length: cycle.length_of(Leg::Support) + cycle.length_of(Leg::Joint),
+            pulled_back,
+        };
+        let (points, legs) = without_repeats(&cycle);
+        let curve = ClosedCurve::new(points).map_err(|e| (e.into(), None))?;
+        Ok(PlannedLayer { report, z: layer.print_z, curve, legs, supports })
+    }
+
+    /// The smoothed candidate, repaired until it holds the cycle above, and how many vertices that pulled back.
+    fn smoothed(
+        &mut self,
+        candidate: &Cycle,
+        supports: &[SupportPoint],
+        field: &SafeguardField,
+        curves: &[ClosedCurve],
+        above: Option<&ClosedCurve>,
+    ) -> Result<(Cycle, usize), (LayerFault, Option<DVec2>)> {
+        let settings = self.settings;
+        let envelope = settings.envelope();
+        let carriers: Vec<Carrier> = candidate
+            .carriers
+            .iter()
+            .flat_map(|&(vertex, demand)| {
+                supports[demand].needs.iter().map(move |&anchor| Carrier { vertex, anchor })
+            })
+            .filter(|c| !candidate.fixed[c.vertex])
+            // One that starts out on the rim has no room; the check after smoothing looks after it.
+            .filter(|c| candidate.points[c.vertex].distance(c.anchor) < 0.98 * envelope)
+            .collect();
+        let outer: Vec<&ClosedCurve> = curves.iter().filter(|c| c.signed_area() > 0.0).collect();
+        let felt: Vec<bool> = candidate
+            .points
+            .iter()
+            .zip(&candidate.fixed)
+            .map(|(&p, fixed)| !fixed && !outer.iter().any(|c| c.contains(p)))
+            .collect();
+        let clear_of: &dyn Clearance = field;
+        let path = Path {
+            points: &candidate.points,
+            fixed: &candidate.fixed,
+            carriers: &carriers,
+            clear_of: Some(clear_of),
+            felt: &felt,
+        };
+        let smooth = &mut self.smooth;
+        let mut points = timed(&mut self.times.smooth, || smooth.points(&path, settings))
+            .map_err(|fault| (fault.into(), None))?;
+        let check =
+            Check { above, criterion: settings.criterion(), width: settings.width, grid: settings.grid };
+        let pulled_back = timed(&mut self.times.check, || {
+            if self.checked {
+                check.repair(&mut points, &candidate.points, &candidate.fixed)
+            } else {
+                check.rounded(&mut points, &candidate.fixed);
+                Ok(0)
+            }
+        })
+        .map_err(|fault| match fault {
+            Fault::Unsupported { at, length } => (LayerFault::Unsupported { length }, at.first().copied()),
+            Fault::Crossing { at } => (LayerFault::Crossing, at.first().copied()),
+        })?;
+        Ok((Cycle { points, ..candidate.clone() }, pulled_back))
+    }
+}
+
+/// Points and legs without vertices that rounding has put on top of their neighbour.
+fn without_repeats(cycle: &Cycle) -> (Vec<DVec2>, Vec<Leg>) {
+    let n = cycle.points.len();
+    let (mut points, mut legs) = (Vec::with_capacity(n), Vec::with_capacity(n));
+    for k in 0..n {
+        // The stretch to an equal neighbour has no length and no purpose.
+        if cycle.points[k] != cycle.points[(k + 1) % n] {
+            points.push(cycle.points[k]);
+            legs.push(cycle.legs[k]);
+        }
+    }
+    (points, legs)
+}
+
+/// Runs a piece of work and adds its time.
+pub(crate) fn timed<T>(total: &mut Duration, work: impl FnOnce() -> T) -> T {
+    let start = Instant::now();
+    let result = work();
+    *total += start.elapsed();
+    result
+}

@@ -1,0 +1,162 @@
+//! The planner: the stages in their order.
+
+use argil_mesh::Mesh;
+use argil_slice::{Layer, outer_walls};
+
+use crate::climb::strand;
+use crate::descent::{Descent, timed};
+use crate::stages::{
+    BestChain, ElasticCurve, Excursions, FewestPoints, PlaneSlices, Route, Safeguard, Seam, Slice,
+    SlopedSafeguard, Smooth, Support,
+};
+use crate::{Plan, PlanError, Settings, StageTimes};
+
+/// How far a plan has come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Progress {
+    /// The mesh is cut into this many layers.
+    Sliced {
+        /// How many.
+        layers: usize,
+    },
+    /// A layer is planned; they come from the top down.
+    Layer {
+        /// Its index, 0 at the bottom.
+        index: usize,
+    },
+    /// All layers are planned; their starts are chosen next.
+    Descended,
+}
+
+/// Plans prints. Every stage is a type parameter with argil's own as default.
+///
+/// ```
+/// use argil::{Planner, Settings};
+/// use argil::stages::ElasticCurve;
+///
+/// // The same planner with one stage given by hand.
+/// let mut planner = Planner { smooth: ElasticCurve::default(), ..Planner::default() };
+/// let mesh = argil::mesh::read_stl(&argil_models::by_name("columns").expect("bundled").to_stl())?;
+/// let layers = planner.slices(&mesh, &Settings::for_width(2.0))?;
+/// assert!(layers.len() > 10);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Planner<
+    S = PlaneSlices,
+    G = SlopedSafeguard,
+    U = FewestPoints,
+    R = Excursions,
+    E = ElasticCurve,
+    C = BestChain,
+> {
+    /// Mesh to layers.
+    pub slice: S,
+    /// Layers to the envelope that support keeps clear of.
+    pub safeguard: G,
+    /// A cycle to the points that it needs below.
+    pub support: U,
+    /// Walls and points to a cycle.
+    pub route: R,
+    /// A cycle to a shorter, smoother one.
+    pub smooth: E,
+    /// Cycles to their starts.
+    pub seam: C,
+    /// Whether every layer must pass the exact check: it crosses itself nowhere and holds the layer above. Without it the
+    /// planner takes what the stages give, as is wanted only to study a method that is not sound.
+    pub checked: bool,
+}
+
+impl Default for Planner {
+    fn default() -> Self {
+        Self {
+            slice: PlaneSlices,
+            safeguard: SlopedSafeguard,
+            support: FewestPoints,
+            route: Excursions,
+            smooth: ElasticCurve::default(),
+            seam: BestChain,
+            checked: true,
+        }
+    }
+}
+
+impl<S: Slice, G: Safeguard, U: Support, R: Route, E: Smooth, C: Seam> Planner<S, G, U, R, E, C> {
+    /// The layers of a mesh.
+    ///
+    /// # Errors
+    /// [`PlanError::Setting`] or [`PlanError::Slice`].
+    pub fn slices(&mut self, mesh: &Mesh, settings: &Settings) -> Result<Vec<Layer>, PlanError> {
+        settings.check()?;
+        Ok(self.slice.layers(mesh, settings)?)
+    }
+
+    /// One strand for a mesh.
+    ///
+    /// # Errors
+    /// See [`PlanError`]: with the layer and a point where it concerns a layer.
+    ///
+    /// # Complexity
+    /// Linear in the layers; a layer costs about what its largest tour costs.
+    pub fn plan(&mut self, mesh: &Mesh, settings: &Settings) -> Result<Plan, PlanError> {
+        self.plan_observed(mesh, settings, &mut |_| {})
+    }
+
+    /// One strand for a mesh, telling `observe` how far it has come.
+    ///
+    /// # Errors
+    /// See [`PlanError`].
+    pub fn plan_observed(
+        &mut self,
+        mesh: &Mesh,
+        settings: &Settings,
+        observe: &mut dyn FnMut(Progress),
+    ) -> Result<Plan, PlanError> {
+        let mut times = StageTimes::default();
+        let layers = timed(&mut times.slice, || self.slices(mesh, settings))?;
+        observe(Progress::Sliced { layers: layers.len() });
+        self.plan_from(&layers, settings, times, observe)
+    }
+
+    /// One strand for layers that come from elsewhere, bottom first.
+    ///
+    /// # Errors
+    /// See [`PlanError`].
+    pub fn plan_layers(&mut self, layers: &[Layer], settings: &Settings) -> Result<Plan, PlanError> {
+        settings.check()?;
+        self.plan_from(layers, settings, StageTimes::default(), &mut |_| {})
+    }
+
+    fn plan_from(
+        &mut self,
+        layers: &[Layer],
+        settings: &Settings,
+        mut times: StageTimes,
+        observe: &mut dyn FnMut(Progress),
+    ) -> Result<Plan, PlanError> {
+        let outer: Vec<_> = layers.iter().map(outer_walls).collect();
+        let safeguards = timed(&mut times.safeguard, || self.safeguard.regions(&outer, settings));
+        let planned = Descent {
+            settings,
+            support: &mut self.support,
+            route: &mut self.route,
+            smooth: &mut self.smooth,
+            times: &mut times,
+            checked: self.checked,
+        }
+        .run(layers, &safeguards, observe)?;
+        observe(Progress::Descended);
+        if planned.is_empty() {
+            return Err(PlanError::Nothing);
+        }
+        let seam = &mut self.seam;
+        let strand = timed(&mut times.seam, || strand(&planned, seam, settings))?;
+        Ok(Plan {
+            strand,
+            layers: planned.iter().map(|layer| layer.report).collect(),
+            losses: layers.iter().flat_map(|layer| layer.losses.iter().cloned()).collect(),
+            times,
+        })
+    }
+}

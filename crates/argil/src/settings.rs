@@ -1,0 +1,158 @@
+//! What the user decides.
+
+use argil_elastic::ElasticOptions;
+use argil_route::RouteSettings;
+use argil_safeguard::SafeguardSettings;
+use argil_seam::SeamSettings;
+use argil_slice::SliceSettings;
+use argil_support::{Criterion, Placement};
+
+use crate::PlanError;
+
+/// What a paste bears, measured by test prints; both in bead widths w.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Material {
+    /// ε_across / w: how far a bead may lie beside the one below. The paper measured 0.3 for Laguna clay with 33 % water.
+    pub across: f64,
+    /// ε_along / w: the longest bridge along the path. The paper measured 1.6.
+    pub along: f64,
+}
+
+impl Default for Material {
+    /// The paper's clay.
+    fn default() -> Self {
+        Self { across: 0.3, along: 1.6 }
+    }
+}
+
+/// Settings of a plan. Everything that is not here follows from these, in proportion to the bead width.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Settings {
+    /// Bead width w, mm (paper: 1.5, from a 0.6 mm nozzle).
+    pub width: f64,
+    /// Layer height h, mm (paper: 0.5).
+    pub layer_height: f64,
+    /// How many walls lie side by side along every outline.
+    pub walls: usize,
+    /// What the paste bears.
+    pub material: Material,
+    /// Step of the output coordinates, mm. Planning rounds to it before the last checks.
+    pub grid: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self::for_width(1.5)
+    }
+}
+
+/// Planning keeps this share of ε in hand; the check uses all of it (DESIGN: plan with 0.95 ε, check with ε).
+const MARGIN: f64 = 0.95;
+
+/// Radius of the disc about a point that needs support, as a share of ε_across. The strand may pass anywhere in it;
+/// what is left of ε_across becomes a held length along the strand, so that points can lie farther apart.
+const ENVELOPE: f64 = 0.65;
+
+/// How much of the envelope demands may use up when they are moved before smoothing.
+const SLACK: f64 = 0.9;
+
+impl Settings {
+    /// Defaults for a bead width: a third of it as layer height, one wall, the paper's clay.
+    #[must_use]
+    pub fn for_width(width: f64) -> Self {
+        Self { width, layer_height: width / 3.0, walls: 1, material: Material::default(), grid: 1e-4 }
+    }
+
+    /// Refuses values that no plan can be made with.
+    ///
+    /// # Errors
+    /// [`PlanError::Setting`] names the first one.
+    pub fn check(&self) -> Result<(), PlanError> {
+        let positive = [
+            ("width", self.width),
+            ("layer_height", self.layer_height),
+            ("grid", self.grid),
+            ("material.across", self.material.across),
+            ("material.along", self.material.along),
+        ];
+        for (name, value) in positive {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(PlanError::Setting { name, value, expected: "positive and finite" });
+            }
+        }
+        let at_most = [
+            ("layer_height", self.layer_height, self.width, "at most the width: a bead is wider than high"),
+            ("material.across", self.material.across, 1.0, "at most 1: beyond that beads do not touch"),
+            ("grid", self.grid, 1e-3 * self.width, "at most a thousandth of the width"),
+        ];
+        for (name, value, limit, expected) in at_most {
+            if value > limit {
+                return Err(PlanError::Setting { name, value, expected });
+            }
+        }
+        if self.walls == 0 || self.walls > 100 {
+            return Err(PlanError::Setting { name: "walls", value: self.walls as f64, expected: "1 to 100" });
+        }
+        Ok(())
+    }
+
+    /// ε_across and ε_along in mm: what must hold of the finished path.
+    #[must_use]
+    pub fn criterion(&self) -> Criterion {
+        Criterion { across: self.material.across * self.width, along: self.material.along * self.width }
+    }
+
+    /// What the slice stage gets.
+    #[must_use]
+    pub fn slicing(&self) -> SliceSettings {
+        SliceSettings {
+            layer_height: self.layer_height,
+            width: self.width,
+            walls: self.walls,
+            grid: self.grid,
+            ..SliceSettings::default()
+        }
+    }
+
+    /// What the safeguard stage gets.
+    #[must_use]
+    pub fn safeguarding(&self) -> SafeguardSettings {
+        SafeguardSettings { shrink: self.criterion().across, ..SafeguardSettings::for_width(self.width) }
+    }
+
+    /// What the support stage gets: the criterion with a margin in hand.
+    #[must_use]
+    pub fn support(&self) -> Placement {
+        Placement::for_criterion(self.width, &self.criterion())
+    }
+
+    /// What the route stage gets.
+    #[must_use]
+    pub fn routing(&self) -> RouteSettings {
+        RouteSettings {
+            across: self.criterion().across,
+            slack: SLACK * self.envelope(),
+            grid: self.grid,
+            ..RouteSettings::for_width(self.width)
+        }
+    }
+
+    /// What the smoothing stage gets.
+    #[must_use]
+    pub fn smoothing(&self) -> ElasticOptions {
+        ElasticOptions { envelope: self.envelope(), ..ElasticOptions::for_width(self.width) }
+    }
+
+    /// What the seam stage gets.
+    #[must_use]
+    pub fn seaming(&self) -> SeamSettings {
+        SeamSettings { across: MARGIN * self.criterion().across, ..SeamSettings::for_width(self.width) }
+    }
+
+    /// How far a strand may pass from a point that it supports, mm.
+    pub(crate) fn envelope(&self) -> f64 {
+        ENVELOPE * self.criterion().across
+    }
+}
