@@ -5,6 +5,7 @@ use std::process::ExitCode;
 use argil::gcode::{GcodeSettings, write_gcode};
 use argil::mesh::Mesh;
 use argil::{Plan, PlanError, Planner, Settings, literal};
+use argil_preview::{SvgStyle, ViewStyle, layer_svg, overview_svg, png};
 
 use crate::args::PlanArgs;
 use crate::audit_command::measure;
@@ -82,7 +83,27 @@ fn gcode_settings(args: &PlanArgs, settings: &Settings) -> GcodeSettings {
     }
 }
 
-fn pictures(_a: &PlanArgs, _p: &Plan) -> Result<(), Failure> { Ok(()) }
+fn pictures(args: &PlanArgs, plan: &Plan) -> Result<(), Failure> {
+    let overview = |wanted: bool| wanted.then(|| overview_svg(&plan.strand, &ViewStyle::default()));
+    if let Some(folder) = &args.svg {
+        output::folder(folder)?;
+        for (position, layer) in plan.strand.layers().iter().enumerate() {
+            let name = format!("layer-{:04}.svg", layer.index);
+            output::write(&folder.join(name), layer_svg(&plan.strand, position, &SvgStyle::default()).as_bytes())?;
+        }
+    }
+    if let Some(svg) = overview(args.svg.is_some() || args.png.is_some()) {
+        if let Some(folder) = &args.svg {
+            output::write(&folder.join("overview.svg"), svg.as_bytes())?;
+        }
+        if let Some(path) = &args.png {
+            let bytes = png(&svg, PICTURE)
+                .map_err(|source| Failure::Output { what: "picture", source: Box::new(source) })?;
+            output::write(path, &bytes)?;
+        }
+    }
+    Ok(())
+}
 
 fn json(value: &impl serde::Serialize) -> Result<Vec<u8>, Failure> {
     serde_json::to_vec_pretty(value).map_err(|source| Failure::Output { what: "report", source: Box::new(source) })
