@@ -35,7 +35,9 @@ pub enum ElasticError {
     /// A carrier starts outside its envelope, where Eq. 6 has no value.
     ///
     /// Nothing is repaired here: only the caller knows whether the vertex or the anchor is wrong.
-    #[error("carrier {carrier} (vertex {vertex}) starts {distance} mm from its anchor, envelope {envelope} mm")]
+    #[error(
+        "carrier {carrier} (vertex {vertex}) starts {distance} mm from its anchor, envelope {envelope} mm"
+    )]
     CarrierOutside {
         /// Index into [`Path::carriers`](crate::Path::carriers).
         carrier: usize,

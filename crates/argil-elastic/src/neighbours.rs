@@ -1,5 +1,7 @@
 //! Which edges are near which vertices and edges, kept over several iterations.
 
+use std::ops::Range;
+
 use glam::DVec2;
 
 use crate::rod::Rod;
@@ -7,8 +9,8 @@ use crate::rod::Rod;
 /// How far any vertex may move before the lists are made anew, in w.
 ///
 /// Larger keeps the lists valid for longer but fills them with edges that are checked in vain. A third of a width
-/// is one capped step; later steps are much shorter.
-const SKIN: f64 = 1.0 / 3.0;
+/// is about one capped step; later steps are much shorter.
+const SKIN: f64 = 0.4;
 
 /// Slack against rounding when a distance is compared with a list's reach, in w.
 const ROUNDING: f64 = 1e-9;
@@ -30,7 +32,7 @@ pub(crate) struct Opposite {
 pub(crate) struct Neighbours {
     /// Where the vertices were when the lists were made, in w.
     reference: Vec<DVec2>,
-    /// Per free vertex: edges that may come nearer than w.
+    /// Per edge with a free end: edges that may come nearer than w to its first vertex, if that is free.
     opposite: Lists<Opposite>,
     /// Per edge with a free end: other edges that it may come to cross or to touch.
     crossable: Lists<u32>,
@@ -96,46 +98,34 @@ impl Neighbours {
             return;
         }
         self.grid.fill(rod, points);
-        if let Some(distance) = reach.repulsion {
-            let radius = distance + 2.0 * SKIN + ROUNDING;
-            for &v in &rod.free {
-                let v = v as usize;
-                let items = &mut self.opposite.items;
-                self.grid.visit(points[v], points[v], radius, |k| {
-                    if let Some((from, to)) = rod.part_beyond(v, k, reach.skip) {
-                        let (a, b) = (points[k], points[rod.next(k)]);
-                        if from_segment(points[v], a, b).length_squared() <= radius * radius {
-                            items.push(Opposite { edge: k as u32, from, to });
-                        }
+        let radius = |distance: Option<f64>| distance.map_or(-1.0, |d| d + 2.0 * SKIN + ROUNDING);
+        let (repulsion, touch) = (radius(reach.repulsion), radius(reach.touch));
+        for &e in &rod.edges {
+            let e = e as usize;
+            let (a, b) = (points[e], points[rod.next(e)]);
+            let repelled = if rod.is_free(e) { repulsion } else { -1.0 };
+            let (opposite, crossable) = (&mut self.opposite.items, &mut self.crossable.items);
+            self.grid.visit(a, b, repelled.max(touch), |k| {
+                let (c, d) = (points[k], points[rod.next(k)]);
+                if boxes_within(a, a, c, d, repelled) {
+                    if let Some((from, to)) = rod.part_beyond(e, k, reach.skip) {
+                        opposite.push(Opposite { edge: k as u32, from, to });
                     }
-                });
-                self.opposite.close();
-            }
-        }
-        if let Some(distance) = reach.touch {
-            let radius = distance + 2.0 * SKIN + ROUNDING;
-            for &e in &rod.edges {
-                let e = e as usize;
-                let (a, b) = (points[e], points[rod.next(e)]);
-                let items = &mut self.crossable.items;
-                self.grid.visit(a, b, radius, |k| {
-                    // A pair of free edges is listed once; edges that share a vertex cannot cross properly.
-                    let once = k > e || !rod.edge_has_free_end(k);
-                    if once && rod.edges_apart(e, k) > 1 {
-                        let (c, d) = (points[k], points[rod.next(k)]);
-                        if boxes_within(a, b, c, d, radius) {
-                            items.push(k as u32);
-                        }
-                    }
-                });
-                self.crossable.close();
-            }
+                }
+                // A pair of free edges is listed once; edges that share a vertex cannot cross properly.
+                let once = k > e || !rod.edge_has_free_end(k);
+                if once && boxes_within(a, b, c, d, touch) && rod.edges_apart(e, k) > 1 {
+                    crossable.push(k as u32);
+                }
+            });
+            self.opposite.close();
+            self.crossable.close();
         }
     }
 
-    /// The edges that may repel the free vertex with this number.
-    pub(crate) fn opposite(&self, number: usize) -> &[Opposite] {
-        self.opposite.of(number)
+    /// The edges that may repel the first vertex of the edge at this place of [`Rod::edges`]; none if it is fixed.
+    pub(crate) fn opposite(&self, place: usize) -> &[Opposite] {
+        self.opposite.of(place)
     }
 
     /// The edges that the edge at this place of [`Rod::edges`] may cross or touch.
@@ -192,7 +182,8 @@ impl Grid {
         let extent = high - low;
         let most = 8.0 * n as f64 + 64.0;
         self.low = low;
-        let (square, line) = ((extent.x * extent.y / most).sqrt(), extent.max_element().max(rod.perimeter) / most);
+        let (square, line) =
+            ((extent.x * extent.y / most).sqrt(), extent.max_element().max(rod.perimeter) / most);
         self.cell = square.max(line).max(1.0);
         self.columns = (extent.x / self.cell) as usize + 1;
         self.rows = (extent.y / self.cell) as usize + 1;
@@ -200,7 +191,9 @@ impl Grid {
         self.starts.resize(self.columns * self.rows + 1, 0);
         let mut starts = std::mem::take(&mut self.starts);
         for k in 0..n {
-            self.each_bucket(points[k], points[rod.next(k)], 0.0, |bucket| starts[bucket] += 1);
+            self.each_row(points[k], points[rod.next(k)], 0.0, |row| {
+                starts[row].iter_mut().for_each(|start| *start += 1);
+            });
         }
         let mut total = 0;
         for start in &mut starts {
@@ -212,9 +205,11 @@ impl Grid {
         items.resize(total as usize, 0);
         // Filled from the back, which leaves every start where its bucket begins and edges in ascending order.
         for k in (0..n).rev() {
-            self.each_bucket(points[k], points[rod.next(k)], 0.0, |bucket| {
-                starts[bucket] -= 1;
-                items[starts[bucket] as usize] = k as u32;
+            self.each_row(points[k], points[rod.next(k)], 0.0, |row| {
+                for start in &mut starts[row] {
+                    *start -= 1;
+                    items[*start as usize] = k as u32;
+                }
             });
         }
         self.starts = starts;
@@ -229,8 +224,9 @@ impl Grid {
         self.query += 1;
         let query = self.query;
         let mut met = std::mem::take(&mut self.met);
-        self.each_bucket(a, b, radius, |bucket| {
-            for &k in &self.items[self.starts[bucket] as usize..self.starts[bucket + 1] as usize] {
+        self.each_row(a, b, radius, |row| {
+            // The buckets of a row lie side by side, and so do their edges.
+            for &k in &self.items[self.starts[row.start] as usize..self.starts[row.end] as usize] {
                 if met[k as usize] != query {
                     met[k as usize] = query;
                     found(k as usize);
@@ -240,10 +236,10 @@ impl Grid {
         self.met = met;
     }
 
-    /// Calls `found` for every bucket that the segment `a`–`b`, widened by `radius`, may overlap.
+    /// Calls `found`, row by row, with the buckets that the segment `a`–`b`, widened by `radius`, may overlap.
     ///
-    /// Row by row, so that a long slanted edge fills the buckets along it and not its bounding box.
-    fn each_bucket(&self, a: DVec2, b: DVec2, radius: f64, mut found: impl FnMut(usize)) {
+    /// By rows, so that a long slanted edge fills the buckets along it and not its bounding box.
+    fn each_row(&self, a: DVec2, b: DVec2, radius: f64, mut found: impl FnMut(Range<usize>)) {
         let (lower, upper) = if a.y <= b.y { (a, b) } else { (b, a) };
         let first = self.row(lower.y - radius);
         let last = self.row(upper.y + radius);
@@ -258,9 +254,8 @@ impl Grid {
                 left = left.max(enter.min(leave) - slack);
                 right = right.min(enter.max(leave) + slack);
             }
-            for column in self.column(left - radius)..=self.column(right + radius) {
-                found(row * self.columns + column);
-            }
+            let base = row * self.columns;
+            found(base + self.column(left - radius)..base + self.column(right + radius) + 1);
         }
     }
 

@@ -19,18 +19,17 @@ const DAMPING_UP: f64 = 10.0;
 const DAMPING_DOWN: f64 = 0.3;
 const LEAST_DAMPING: f64 = 1e-6;
 
-/// How often a step is halved, then how often the damping is raised, before the search gives up.
-const HALVINGS: usize = 8;
-const DAMPINGS: usize = 6;
+/// Trials within one iteration before it counts as stuck.
+const ATTEMPTS: usize = 20;
 
-/// How often a single vertex's step is halved for the guard's sake before the vertex stays where it is.
-const LOCAL_HALVINGS: u8 = 6;
+/// Smallest share of an unobstructed step that is tried before the damping is raised instead.
+const LEAST_SHARE: f64 = 0.25;
+
+/// Part of its step below which an offending vertex is left where it is: six halvings.
+const LEAST_PART: f64 = 1.0 / 64.0;
 
 /// Vertices to either side of an offending edge whose step is cut with it, so that no kink is left there.
 const CUT_ALONG: usize = 2;
-
-/// Rounds of local cuts within one trial step.
-const ROUNDS: usize = 24;
 
 /// How Sec. 3.4 is read; the readings share the energies, the system and the descent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,9 +49,7 @@ pub struct ElasticSolver {
     neighbours: Neighbours,
     current: State,
     trial: State,
-    step: Vec<DVec2>,
-    cuts: Vec<u8>,
-    cut_in_round: Vec<bool>,
+    memory: Steps,
     tethers: Vec<Tether>,
     felt: Vec<u32>,
 }
@@ -102,11 +99,10 @@ impl ElasticSolver {
         }
         self.trial.start(path.points, options.width);
         self.neighbours.forget();
-        self.step.clear();
-        self.step.resize(self.rod.free.len(), DVec2::ZERO);
+        self.memory.start(&self.rod);
         let mut system = NormalSystem::new(&self.rod)?;
 
-        let Self { rod, neighbours, current, trial, step, cuts, cut_in_round, tethers, felt } = self;
+        let Self { rod, neighbours, current, trial, memory, tethers, felt } = self;
         let guard = Guard { rod, candidate: path.points, touch: options.touch * options.width };
         let guard = (reading == Reading::Mended).then_some(guard);
         let objective = Objective {
@@ -119,7 +115,7 @@ impl ElasticSolver {
         };
         let reach = Reach { touch: guard.map(|_| options.touch), ..objective.repulsion_reach() };
         let task = Task { objective, guard, reach, options };
-        let mut descent = Descent { task, neighbours, current, trial, step, cuts, cut_in_round };
+        let mut descent = Descent { task, neighbours, current, trial, memory };
         let (energy_before, iterations, stop) = descent.run(&mut system);
         Ok(Relaxed {
             points: self.current.points.clone(),
@@ -182,11 +178,66 @@ struct Descent<'a> {
     neighbours: &'a mut Neighbours,
     current: &'a mut State,
     trial: &'a mut State,
-    /// Newton step of every free vertex, in w.
-    step: &'a mut Vec<DVec2>,
-    /// How often the step of every vertex of the path has been halved in this trial.
-    cuts: &'a mut Vec<u8>,
-    cut_in_round: &'a mut Vec<bool>,
+    memory: &'a mut Steps,
+}
+
+/// What became of one iteration.
+enum Advance {
+    Stepped,
+    /// The Newton step was within the tolerance.
+    Settled {
+        stepped: bool,
+    },
+    Stuck,
+}
+
+/// What is known about the step of every free vertex, by its number.
+#[derive(Debug, Default)]
+struct Steps {
+    /// Newton step, in w.
+    step: Vec<DVec2>,
+    /// Which part of its step a vertex takes in this trial.
+    part: Vec<f64>,
+    /// Damping of single vertices, on top of the common one.
+    stiffness: Vec<f64>,
+    /// Damping of all vertices.
+    damping: f64,
+    /// Vertices of the path that offended in this round.
+    marked: Vec<bool>,
+}
+
+impl Steps {
+    fn start(&mut self, rod: &Rod) {
+        let unknowns = rod.free.len();
+        self.step.clear();
+        self.step.resize(unknowns, DVec2::ZERO);
+        self.part.clear();
+        self.part.resize(unknowns, 1.0);
+        self.stiffness.clear();
+        self.stiffness.resize(unknowns, 0.0);
+        self.damping = DAMPING;
+        self.marked.clear();
+        self.marked.resize(rod.len(), false);
+    }
+
+    /// After a success, lets go of what is held.
+    fn relent(&mut self) {
+        self.damping = (self.damping * DAMPING_DOWN).max(LEAST_DAMPING);
+        for stiffness in &mut self.stiffness {
+            let less = *stiffness * DAMPING_DOWN;
+            *stiffness = if less < DAMPING { 0.0 } else { less };
+        }
+    }
+
+    /// Stiffens every vertex that could not take its whole step: taken alone, it would then ask for the part it took.
+    fn stiffen(&mut self, system: &NormalSystem, share: f64) {
+        for (b, (&part, stiffness)) in self.part.iter().zip(&mut self.stiffness).enumerate() {
+            if part < share {
+                let held = system.stiffness(b);
+                *stiffness = (held + *stiffness) * (share / part.max(LEAST_PART)) - held;
+            }
+        }
+    }
 }
 
 impl Descent<'_> {
@@ -198,118 +249,136 @@ impl Descent<'_> {
         if !before.is_finite() {
             return (before, 0, Stop::NoProgress);
         }
-        let mut damping = DAMPING;
         for iteration in 0..self.task.options.max_iterations {
             self.task.objective.assemble(self.current, system);
-            let mut in_matrix = 0.0;
-            let mut moved = None;
-            for _ in 0..DAMPINGS {
-                system.damp(damping - in_matrix);
-                in_matrix = damping;
-                if system.solve(self.step) {
-                    let longest = self.step.iter().map(|s| s.abs().max_element()).fold(0.0, f64::max);
-                    if longest <= self.task.options.tolerance {
-                        let taken = self.search(system, 1.0, 1);
-                        return (before, iteration + usize::from(taken.is_some()), Stop::Converged);
-                    }
-                    moved = self.search(system, (self.task.options.max_step / longest).min(1.0), HALVINGS);
-                    if moved.is_some() {
-                        break;
-                    }
+            match self.advance(system) {
+                Advance::Stepped => {}
+                Advance::Settled { stepped } => {
+                    return (before, iteration + usize::from(stepped), Stop::Converged);
                 }
-                damping *= DAMPING_UP;
+                Advance::Stuck => return (before, iteration, Stop::NoProgress),
             }
-            let Some(moved) = moved else { return (before, iteration, Stop::NoProgress) };
-            if moved <= self.task.options.tolerance {
-                return (before, iteration + 1, Stop::NoProgress);
-            }
-            damping = (damping * DAMPING_DOWN).max(LEAST_DAMPING);
         }
         (before, self.task.options.max_iterations, Stop::IterationCap)
     }
 
-    /// Takes the longest acceptable part of the step, at most `share` of it; gives the largest change of a coordinate.
+    /// Solves for a step and takes what can be taken of it.
     ///
-    /// A trial is first cut back locally until it crosses, touches and leaves nothing; if its energy is then too
-    /// high, the whole of it is halved. One tight place thus never holds up the rest of the layer.
-    fn search(&mut self, system: &NormalSystem, share: f64, halvings: usize) -> Option<f64> {
-        let mut share = share;
-        self.cuts.clear();
-        self.cuts.resize(self.task.objective.rod.len(), 0);
-        for _ in 0..halvings {
-            if self.cut_back(share) {
-                self.task.objective.evaluate(self.trial, self.neighbours);
-                let mut promised = 0.0;
-                let mut longest = 0.0_f64;
-                for (&v, gradient) in self.task.objective.rod.free.iter().zip(&system.gradient) {
-                    let moved = self.trial.scaled[v as usize] - self.current.scaled[v as usize];
-                    promised += gradient.dot(moved);
-                    longest = longest.max(moved.abs().max_element());
-                }
-                if self.trial.energy <= self.current.energy + SUFFICIENT * promised.min(0.0) && longest > 0.0 {
-                    std::mem::swap(self.current, self.trial);
-                    return Some(longest);
-                }
+    /// A vertex whose step has to be cut pulls at neighbours that were to move with it, and the rest of the step may
+    /// then lead uphill. In that case the vertex is stiffened so much that the next solution asks of it what it can
+    /// do, and the others go along. Only a step that nothing obstructs and that still fails is damped as a whole.
+    fn advance(&mut self, system: &mut NormalSystem) -> Advance {
+        let tolerance = self.task.options.tolerance;
+        let mut share = 1.0;
+        for attempt in 0..ATTEMPTS {
+            let Steps { step, stiffness, damping, .. } = &mut *self.memory;
+            let longest = |step: &[DVec2]| step.iter().map(|s| s.length()).fold(0.0, f64::max);
+            let mut solved = system.solve(step, |b| *damping + stiffness[b]);
+            if solved && attempt == 0 && longest(step) <= tolerance && stiffness.iter().any(|&s| s > 0.0) {
+                // A path that is only held still has not settled.
+                stiffness.fill(0.0);
+                solved = system.solve(step, |_| *damping);
             }
-            share *= 0.5;
+            if !solved {
+                *damping *= DAMPING_UP;
+                continue;
+            }
+            let settled = attempt == 0 && longest(step) <= tolerance;
+            let obstructed = self.place_within_bounds(share);
+            let stepped = self.descend(system);
+            if settled {
+                return Advance::Settled { stepped };
+            }
+            if stepped {
+                self.memory.relent();
+                return Advance::Stepped;
+            }
+            if obstructed {
+                self.memory.stiffen(system, share);
+            } else if share > LEAST_SHARE {
+                share *= 0.5;
+            } else {
+                share = 1.0;
+                self.memory.damping *= DAMPING_UP * DAMPING_UP;
+            }
         }
-        None
+        Advance::Stuck
     }
 
-    /// Places the trial, cutting the steps of offending vertices until nothing offends; `false` if that fails.
-    fn cut_back(&mut self, share: f64) -> bool {
+    /// Makes the trial the current position if its energy is low enough (Armijo).
+    fn descend(&mut self, system: &NormalSystem) -> bool {
         let rod = self.task.objective.rod;
-        for _ in 0..ROUNDS {
-            self.place(share);
-            self.cut_in_round.clear();
-            self.cut_in_round.resize(rod.len(), false);
-            let mut offended = false;
-            let marks = &mut *self.cut_in_round;
-            let mut mark = |first: usize, count: usize| {
-                offended = true;
-                let mut v = first;
-                for _ in 0..CUT_ALONG {
-                    v = rod.previous(v);
+        let change = |v: u32| self.trial.scaled[v as usize] - self.current.scaled[v as usize];
+        let promised: f64 = rod.free.iter().zip(&system.gradient).map(|(&v, g)| g.dot(change(v))).sum();
+        if promised >= 0.0 {
+            return false;
+        }
+        self.task.objective.evaluate(self.trial, self.neighbours);
+        let descends = self.trial.energy <= self.current.energy + SUFFICIENT * promised;
+        if descends {
+            std::mem::swap(self.current, self.trial);
+        }
+        descends
+    }
+
+    /// Places the trial at `share` of the step, less where a vertex would go too far, leave its envelope, cross or
+    /// touch; tells whether there was such a vertex.
+    ///
+    /// The neighbour lists cover the trial afterwards.
+    fn place_within_bounds(&mut self, share: f64) -> bool {
+        let rod = self.task.objective.rod;
+        let cap = self.task.options.max_step;
+        for (part, step) in self.memory.part.iter_mut().zip(&self.memory.step) {
+            *part = share.min(cap / step.length());
+        }
+        for tether in self.task.objective.tethers {
+            let b = rod.number[tether.vertex as usize] as usize;
+            let room = tether.reach(&self.current.scaled, self.memory.step[b], self.task.objective.envelope);
+            self.memory.part[b] = self.memory.part[b].min(room);
+        }
+        self.place();
+        self.neighbours.cover(rod, &self.trial.scaled, &self.task.reach);
+        if let Some(guard) = self.task.guard {
+            // Every round at least halves a step that is not yet zero, and a path at rest offends nowhere: this ends.
+            while self.mark_offenders(&guard) {
+                for (part, &v) in self.memory.part.iter_mut().zip(&rod.free) {
+                    if self.memory.marked[v as usize] {
+                        *part = if *part > LEAST_PART { 0.5 * *part } else { 0.0 };
+                    }
                 }
-                for _ in 0..count + 2 * CUT_ALONG {
-                    marks[v] = true;
+                self.place();
+                self.neighbours.cover(rod, &self.trial.scaled, &self.task.reach);
+            }
+        }
+        self.memory.part.iter().any(|&part| part < share)
+    }
+
+    /// Marks the vertices of edges that cross or touch in the trial, and some to either side; tells whether any do.
+    fn mark_offenders(&mut self, guard: &Guard<'_>) -> bool {
+        let rod = self.task.objective.rod;
+        let marked = &mut self.memory.marked;
+        marked.fill(false);
+        let mut any = false;
+        guard.offenders(&self.trial.points, self.neighbours, |edge, other| {
+            any = true;
+            for first in [edge, other] {
+                let mut v = rod.previous(rod.previous(first));
+                for _ in 0..2 + 2 * CUT_ALONG {
+                    marked[v] = true;
                     v = rod.next(v);
                 }
-            };
-            for tether in self.task.objective.broken(&self.trial.scaled) {
-                mark(tether.vertex as usize, 1);
             }
-            if let Some(guard) = &self.task.guard {
-                self.neighbours.cover(rod, &self.trial.scaled, &self.task.reach);
-                guard.offenders(&self.trial.points, self.neighbours, |edge, other| {
-                    mark(edge, 2);
-                    mark(other, 2);
-                });
-            }
-            if !offended {
-                self.neighbours.cover(rod, &self.trial.scaled, &self.task.reach);
-                return true;
-            }
-            for (cuts, marked) in self.cuts.iter_mut().zip(&*self.cut_in_round) {
-                if *marked {
-                    *cuts = (*cuts + 1).min(LOCAL_HALVINGS + 1);
-                }
-            }
-        }
-        false
+        });
+        any
     }
 
-    /// Moves the trial to the current position plus a share of the step, each vertex by its own part of it.
-    fn place(&mut self, share: f64) {
+    /// Moves the trial to the current position plus every vertex's part of its step.
+    fn place(&mut self) {
         let width = self.task.options.width;
-        for (&v, step) in self.task.objective.rod.free.iter().zip(&*self.step) {
+        let steps = self.memory.step.iter().zip(&self.memory.part);
+        for (&v, (step, part)) in self.task.objective.rod.free.iter().zip(steps) {
             let v = v as usize;
-            let cuts = self.cuts[v];
-            let point = if cuts > LOCAL_HALVINGS {
-                self.current.points[v]
-            } else {
-                self.current.points[v] + *step * (share * width * 0.5_f64.powi(i32::from(cuts)))
-            };
+            let point = self.current.points[v] + *step * (part * width);
             self.trial.points[v] = point;
             self.trial.scaled[v] = point / width;
         }

@@ -11,6 +11,9 @@ use crate::{Clearance, ElasticOptions};
 /// Shortest length by which anything is divided, in w.
 const TINY: f64 = 1e-9;
 
+/// Share of the way to the rim of its envelope that a vertex goes in one step.
+const APPROACH: f64 = 0.9;
+
 /// A vertex that must stay near a point, in w.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tether {
@@ -24,6 +27,25 @@ impl Tether {
     /// Whether its vertex is inside the envelope (in w).
     pub(crate) fn holds(&self, points: &[DVec2], envelope: f64) -> bool {
         barrier(1.0, envelope, self.deviation(points).length_squared()).is_some()
+    }
+
+    /// The share of `step` that uses up at most [`APPROACH`] of the room left to the rim of the envelope.
+    ///
+    /// The barrier is felt only close to the rim, so that a Newton step from further inside does not know of it.
+    pub(crate) fn reach(&self, points: &[DVec2], step: DVec2, envelope: f64) -> f64 {
+        let (start, step) = (self.deviation(points), self.along.map_or(step, |n| step.dot(n) * n));
+        let distance = start.length();
+        let limit = distance + APPROACH * (envelope - distance);
+        // |start + t step|² = limit², the larger root; the product of the roots is negative, so one is positive.
+        let (a, b, c) = (step.length_squared(), start.dot(step), distance * distance - limit * limit);
+        let root = (b * b - a * c).max(0.0).sqrt();
+        if a + 2.0 * b + c <= 0.0 {
+            1.0
+        } else if b > 0.0 {
+            -c / (b + root)
+        } else {
+            (root - b) / a
+        }
     }
 
     fn deviation(&self, points: &[DVec2]) -> DVec2 {
@@ -85,11 +107,6 @@ impl Objective<'_> {
     pub(crate) fn repulsion_reach(&self) -> Reach {
         let repulsion = (self.options.repulsion > 0.0).then_some(1.0);
         Reach { repulsion, skip: self.options.repulsion_skip, touch: None }
-    }
-
-    /// The tethers that are outside their envelope.
-    pub(crate) fn broken<'s>(&'s self, scaled: &'s [DVec2]) -> impl Iterator<Item = &'s Tether> + 's {
-        self.tethers.iter().filter(|tether| !tether.holds(scaled, self.envelope))
     }
 
     /// Looks up contacts and clearances of the state's positions and sums the energy.
@@ -163,6 +180,7 @@ impl Objective<'_> {
         for contact in &state.contacts {
             self.assemble_contact(contact, system);
         }
+        system.close();
     }
 
     /// Adds one contact: the force on all three vertices, curvature on their own blocks only.
@@ -180,7 +198,8 @@ impl Objective<'_> {
         let edge = contact.edge as usize;
         let ends = [(edge, 1.0 - contact.at), (self.rod.next(edge), contact.at)];
         let opposed = ends.iter().any(|&(v, share)| self.rod.is_free(v) && share > 0.0);
-        let curvature = outer(direction, direction) * if opposed { 2.0 * jet.curvature } else { jet.curvature };
+        let curvature =
+            outer(direction, direction) * if opposed { 2.0 * jet.curvature } else { jet.curvature };
         for (v, share) in [(contact.vertex as usize, 1.0), (ends[0].0, -ends[0].1), (ends[1].0, -ends[1].1)] {
             self.add(system, &[v], &[direction * (jet.slope * share)], |_, _| curvature * (share * share));
         }
@@ -250,11 +269,12 @@ impl Objective<'_> {
             return;
         }
         let x = &state.scaled;
-        for (number, &vertex) in self.rod.free.iter().enumerate() {
+        for (place, &vertex) in self.rod.edges.iter().enumerate() {
             let p = x[vertex as usize];
             let mut nearest = 1.0;
             let mut best = None;
-            for opposite in neighbours.opposite(number) {
+            // An edge is named after its first vertex, so that this meets every free vertex once.
+            for opposite in neighbours.opposite(place) {
                 let edge = opposite.edge as usize;
                 let (a, b) = (x[edge], x[self.rod.next(edge)]);
                 let at = nearest_parameter(p, a, b).clamp(opposite.from, opposite.to);

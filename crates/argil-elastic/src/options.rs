@@ -47,9 +47,9 @@ pub struct ElasticOptions {
     /// Newton iterations at most. The lagged choice of nearest strands seldom settles to the last digit and the
     /// next layer does not gain by it, so this is the usual end. 12.
     pub max_iterations: usize,
-    /// The relaxation has converged when the Newton step moves no coordinate by more. 5e-3 mm / 1.5 mm.
+    /// The relaxation has converged when the Newton step moves no vertex further. 5e-3 mm / 1.5 mm.
     pub tolerance: f64,
-    /// No coordinate moves further in one iteration. 0.5 mm / 1.5 mm.
+    /// No vertex moves further in one iteration. 0.5 mm / 1.5 mm.
     pub max_step: f64,
 }
 

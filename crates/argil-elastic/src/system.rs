@@ -9,8 +9,8 @@ use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{Conj, MatMut, Par, Side};
 use glam::{DMat2, DVec2};
 
-use crate::rod::Rod;
 use crate::ElasticError;
+use crate::rod::Rod;
 
 /// Two unknowns for every free vertex; coupled are vertices one and two steps apart on the same free run.
 ///
@@ -22,6 +22,8 @@ pub(crate) struct NormalSystem {
     values: Vec<f64>,
     /// Where the diagonal entries are in `values`.
     diagonal: Vec<usize>,
+    /// The diagonal without damping.
+    undamped: Vec<f64>,
     pub(crate) gradient: Vec<DVec2>,
     symbolic: SymbolicCholesky<usize>,
     factor: Vec<f64>,
@@ -72,6 +74,7 @@ impl NormalSystem {
         Ok(Self {
             values: vec![0.0; pattern.row_idx().len()],
             diagonal,
+            undamped: Vec::with_capacity(2 * blocks),
             gradient: vec![DVec2::ZERO; blocks],
             factor: vec![0.0; symbolic.len_val()],
             right_side: vec![0.0; 2 * blocks],
@@ -108,11 +111,15 @@ impl NormalSystem {
         }
     }
 
-    /// Raises the whole diagonal, which turns the Newton step towards the gradient.
-    pub(crate) fn damp(&mut self, by: f64) {
-        for &place in &self.diagonal {
-            self.values[place] += by;
-        }
+    /// Mean of the diagonal entries of free vertex `b`: how stiffly it is held.
+    pub(crate) fn stiffness(&self, b: usize) -> f64 {
+        0.5 * (self.undamped[2 * b] + self.undamped[2 * b + 1])
+    }
+
+    /// Remembers the diagonal of the assembled matrix, to which every solve adds its damping.
+    pub(crate) fn close(&mut self) {
+        self.undamped.clear();
+        self.undamped.extend(self.diagonal.iter().map(|&place| self.values[place]));
     }
 
     /// The whole symmetric matrix.
@@ -133,7 +140,10 @@ impl NormalSystem {
     /// Solves for the Newton step; `false` if the matrix is not positive definite or the step not finite.
     ///
     /// Linear in the number of free vertices, and free of allocation.
-    pub(crate) fn solve(&mut self, step: &mut [DVec2]) -> bool {
+    pub(crate) fn solve(&mut self, step: &mut [DVec2], damping: impl Fn(usize) -> f64) -> bool {
+        for (k, (&place, undamped)) in self.diagonal.iter().zip(&self.undamped).enumerate() {
+            self.values[place] = undamped + damping(k / 2);
+        }
         for (pair, gradient) in self.right_side.chunks_exact_mut(2).zip(&self.gradient) {
             pair[0] = -gradient.x;
             pair[1] = -gradient.y;

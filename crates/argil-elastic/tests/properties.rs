@@ -101,10 +101,8 @@ fn layer(spine: &[DVec2], gap: f64, wobble: &[DVec2], anchor_every: usize, slack
         *p += wobble[k % wobble.len()];
     }
     let envelope = 0.3;
-    let anchors = (first..points.len())
-        .step_by(anchor_every)
-        .map(|v| (v, points[v] + slack * envelope))
-        .collect();
+    let anchors =
+        (first..points.len()).step_by(anchor_every).map(|v| (v, points[v] + slack * envelope)).collect();
     let felt = fixed.iter().map(|f| !f).collect();
     Layer { points, fixed, felt, anchors, centre: DVec2::ZERO, radius, width, envelope }
 }
@@ -113,13 +111,7 @@ fn layers() -> impl Strategy<Value = Layer> {
     let hop = (2.0..9.0_f64, -1.2..1.2_f64).prop_map(|(length, angle)| DVec2::from_angle(angle) * length);
     let wobble = (-0.15..0.15_f64, -0.15..0.15_f64).prop_map(|(x, y)| DVec2::new(x, y));
     let slack = (0.0..0.9_f64, 0.0..6.3_f64).prop_map(|(r, a)| DVec2::from_angle(a) * r);
-    (
-        prop::collection::vec(hop, 1..5),
-        0.3..1.6_f64,
-        prop::collection::vec(wobble, 7),
-        2..9_usize,
-        slack,
-    )
+    (prop::collection::vec(hop, 1..5), 0.3..1.6_f64, prop::collection::vec(wobble, 7), 2..9_usize, slack)
         .prop_map(|(spine, gap, wobble, every, slack)| layer(&spine, gap, &wobble, every, slack))
 }
 
@@ -163,8 +155,10 @@ fn touches(points: &[DVec2], fixed: &[bool], touch: f64) -> Vec<(usize, usize)> 
         for j in (0..n).filter(|&j| wall(j)) {
             let apart = i.abs_diff(j).min(n - i.abs_diff(j));
             let (a, b, c, d) = (points[i], points[(i + 1) % n], points[j], points[(j + 1) % n]);
-            let gap =
-                to_segment(a, c, d).min(to_segment(b, c, d)).min(to_segment(c, a, b)).min(to_segment(d, a, b));
+            let gap = to_segment(a, c, d)
+                .min(to_segment(b, c, d))
+                .min(to_segment(c, a, b))
+                .min(to_segment(d, a, b));
             if apart > 2 && gap < touch {
                 found.push((i, j));
             }
