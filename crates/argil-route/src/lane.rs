@@ -17,12 +17,12 @@ const HALVINGS: usize = 5;
 
 /// A vertex of the drawn cycle.
 #[derive(Clone, Copy, Debug)]
-struct Drawn {
-    at: DVec2,
-    vertex: Option<u32>,
-    fixed: bool,
-    carries: Option<usize>,
-    leg: Leg,
+pub(crate) struct Drawn {
+    pub(crate) at: DVec2,
+    pub(crate) vertex: Option<u32>,
+    pub(crate) fixed: bool,
+    pub(crate) carries: Option<usize>,
+    pub(crate) leg: Leg,
 }
 
 /// Draws the circuit with lanes `lane` mm beside doubled edges, vertices at most `spacing` mm apart on
@@ -102,7 +102,7 @@ fn sector(rotation: &[EdgeEnd], visit: Visit) -> Sector {
     }
 }
 
-fn rounded(p: DVec2, grid: f64) -> DVec2 {
+pub(crate) fn rounded(p: DVec2, grid: f64) -> DVec2 {
     (p / grid).round() * grid
 }
 
@@ -152,7 +152,7 @@ fn polyline(
 }
 
 /// Appends a vertex, or folds it into the last one where both round to the same place.
-fn push(drawn: &mut Vec<Drawn>, next: Drawn) {
+pub(crate) fn push(drawn: &mut Vec<Drawn>, next: Drawn) {
     match drawn.last_mut() {
         Some(last) if last.at == next.at && (last.carries.is_none() || next.carries.is_none()) => {
             last.fixed |= next.fixed;
@@ -228,7 +228,7 @@ fn turn(
 }
 
 /// Splits free stretches into pieces of at most `spacing` and gathers the cycle.
-fn subdivided(drawn: &[Drawn], spacing: f64, grid: f64, roots: usize) -> Cycle {
+pub(crate) fn subdivided(drawn: &[Drawn], spacing: f64, grid: f64, roots: usize) -> Cycle {
     let mut cycle = Cycle { roots, ..Cycle::default() };
     let n = drawn.len();
     for (k, d) in drawn.iter().enumerate() {

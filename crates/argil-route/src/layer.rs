@@ -175,7 +175,7 @@ impl Router {
 }
 
 /// The walls as curves.
-fn curves(walls: &[Wall<'_>]) -> Result<Vec<ClosedCurve>, RouteError> {
+pub(crate) fn curves(walls: &[Wall<'_>]) -> Result<Vec<ClosedCurve>, RouteError> {
     walls
         .iter()
         .enumerate()
@@ -187,7 +187,7 @@ fn curves(walls: &[Wall<'_>]) -> Result<Vec<ClosedCurve>, RouteError> {
 }
 
 /// A demand's place on the grid, at least a little away from every wall.
-fn clear_of(walls: &SegmentIndex, demand: &Demand, s: &RouteSettings) -> DVec2 {
+pub(crate) fn clear_of(walls: &SegmentIndex, demand: &Demand, s: &RouteSettings) -> DVec2 {
     let keep = 0.05 * s.width;
     let mut place = demand.position;
     if let Some(near) = walls.nearest_within(place, keep) {
@@ -269,7 +269,7 @@ fn add_wall(graph: &mut Multigraph, curve: &ClosedCurve, cuts: &mut Vec<(Cut, u3
 }
 
 /// The smallest cycle through demands that all lie in one place: a ring within their slack.
-fn dot(demands: &[Demand], s: &RouteSettings) -> Cycle {
+pub(crate) fn dot(demands: &[Demand], s: &RouteSettings) -> Cycle {
     let radius = (0.5 * s.slack).max(4.0 * s.grid);
     let centre = demands.first().map_or(DVec2::ZERO, |d| d.position);
     let corners = (0..6).map(|k| centre + radius * DVec2::from_angle(f64::from(k) * std::f64::consts::FRAC_PI_3));

@@ -36,9 +36,11 @@ mod region;
 mod region_plan;
 mod round_tour;
 mod settings;
+mod spliced;
 
 pub use cycle::{Cycle, Leg};
 pub use error::RouteError;
 pub use layer::{Demand, LayerInput, Router, Wall};
 pub use region::{Region, regions};
 pub use settings::RouteSettings;
+pub use spliced::SplicedRouter;
