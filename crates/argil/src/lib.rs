@@ -50,3 +50,14 @@ pub use error::{LayerFault, PlanError};
 pub use plan::{LayerReport, Plan, StageTimes};
 pub use planner::{Planner, Progress};
 pub use settings::{Material, Settings};
+
+/// The examples of the pages for readers, so that they stay true.
+#[cfg(doctest)]
+mod pages {
+    #[doc = include_str!("../README.md")]
+    struct Crate;
+    #[doc = include_str!("../../../README.md")]
+    struct Workspace;
+    #[doc = include_str!("../../argil-route/README.md")]
+    struct Route;
+}
