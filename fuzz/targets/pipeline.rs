@@ -1,0 +1,4 @@
+//! `pipeline` of the library, as a libFuzzer program.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| argil_fuzz::pipeline(bytes));
