@@ -20,6 +20,7 @@ pub(crate) enum Command {
     #[command(after_help = PLAN_EXAMPLES)]
     Plan(PlanArgs),
     /// Measure a g-code file of any slicer against its model, by geometry alone.
+    #[command(after_help = EXIT_STATUS)]
     Audit(AuditArgs),
     /// List the bundled models; plan one with `argil plan sample:NAME`.
     Samples,
@@ -36,19 +37,19 @@ Exit status: 0 done, 2 wrong usage, 3 bad input, 4 a plan with findings.";
 #[derive(Clone, Copy, Debug, clap::Args)]
 pub(crate) struct BeadArgs {
     /// Bead width in mm.
-    #[arg(long, value_name = "MM", default_value_t = 1.5)]
+    #[arg(long, value_name = "MM", default_value_t = 1.5, allow_negative_numbers = true)]
     pub(crate) width: f64,
     /// Layer height in mm [default: a third of the width].
-    #[arg(long, value_name = "MM")]
+    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
     pub(crate) layer_height: Option<f64>,
     /// Walls side by side along every outline.
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(crate) walls: usize,
     /// How far a bead may lie beside the one below, in bead widths.
-    #[arg(long, value_name = "RATIO", default_value_t = 0.3)]
+    #[arg(long, value_name = "RATIO", default_value_t = 0.3, allow_negative_numbers = true)]
     pub(crate) across: f64,
     /// The longest bridge along the strand, in bead widths.
-    #[arg(long, value_name = "RATIO", default_value_t = 1.6)]
+    #[arg(long, value_name = "RATIO", default_value_t = 1.6, allow_negative_numbers = true)]
     pub(crate) along: f64,
 }
 

@@ -2,9 +2,9 @@
 
 use std::process::ExitCode;
 
+use argil::Settings;
 use argil::gcode::read_gcode;
 use argil::mesh::Mesh;
-use argil::Settings;
 use argil_audit::{AuditSettings, Report, audit};
 
 use crate::args::AuditArgs;
@@ -14,6 +14,7 @@ use crate::{input, output};
 /// Measures a file and tells what it found.
 pub(crate) fn run(args: &AuditArgs) -> Result<ExitCode, Failure> {
     let settings = input::settings(&args.bead)?;
+    args.json.iter().try_for_each(|path| output::check(path))?;
     let mesh = input::model(&args.model, args.place)?;
     let bytes = std::fs::read(&args.gcode).map_err(|source| Failure::reading(&args.gcode, source))?;
     let report = measure(&String::from_utf8_lossy(&bytes), &mesh, &settings)

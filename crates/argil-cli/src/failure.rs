@@ -19,7 +19,7 @@ pub(crate) enum Failure {
     /// There is no such bundled model.
     Sample { name: String },
     /// An option has a value that cannot be.
-    Option { source: Box<dyn std::error::Error> },
+    Option { option: String, source: argil::PlanError },
     /// The model has no plan.
     Plan { name: String, source: argil::PlanError },
     /// The result cannot be written as g-code or a picture.
@@ -37,6 +37,15 @@ impl Failure {
 
     pub(crate) fn input(name: &str, source: impl std::error::Error + 'static) -> Self {
         Self::Input { name: name.to_owned(), source: Box::new(source) }
+    }
+
+    /// A setting that cannot be, under the name that it has on the command line.
+    pub(crate) fn option(source: argil::PlanError) -> Self {
+        let name = match &source {
+            argil::PlanError::Setting { name, .. } => name.rsplit('.').next().unwrap_or(name),
+            _ => "settings",
+        };
+        Self::Option { option: format!("--{}", name.replace('_', "-")), source }
     }
 
     pub(crate) fn exit_code(&self) -> ExitCode {
@@ -62,7 +71,7 @@ impl fmt::Display for Failure {
             Self::Sample { name } => {
                 write!(f, "there is no bundled model `{name}`; `argil samples` lists them")
             }
-            Self::Option { source } => write!(f, "{source}"),
+            Self::Option { option, source } => write!(f, "{option}: {source}"),
             Self::Plan { name, source } => write!(f, "{name}: {source}"),
             Self::Output { what, source } => write!(f, "the {what} cannot be written: {source}"),
         }

@@ -40,6 +40,6 @@ pub(crate) fn settings(bead: &BeadArgs) -> Result<Settings, Failure> {
     if let Some(height) = bead.layer_height {
         settings.layer_height = height;
     }
-    settings.check().map_err(|source| Failure::Option { source: Box::new(source) })?;
+    settings.check().map_err(Failure::option)?;
     Ok(settings)
 }

@@ -1,7 +1,7 @@
 //! Files that are written whole or not at all.
 
-use std::fs;
 use std::path::Path;
+use std::{fs, io};
 
 use crate::failure::Failure;
 
@@ -15,6 +15,18 @@ pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
         drop(fs::remove_file(partial));
         Failure::writing(path, source)
     })
+}
+
+/// Refuses a place where nothing can be written, so that a long plan does not end there.
+pub(crate) fn check(path: &Path) -> Result<(), Failure> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let refuse = |kind: io::ErrorKind| Err(Failure::writing(path, kind.into()));
+    match fs::metadata(folder) {
+        Err(source) => Err(Failure::writing(path, source)),
+        Ok(found) if !found.is_dir() => refuse(io::ErrorKind::NotADirectory),
+        Ok(_) if path.is_dir() => refuse(io::ErrorKind::IsADirectory),
+        Ok(_) => Ok(()),
+    }
 }
 
 /// Makes a folder and those above it.

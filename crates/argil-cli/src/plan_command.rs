@@ -20,6 +20,8 @@ const PICTURE: u32 = 1600;
 /// Plans a model and writes everything that was asked for.
 pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
     let settings = input::settings(&args.bead)?;
+    let files = [Some(&args.output), args.report.as_ref(), args.strand.as_ref(), args.png.as_ref()];
+    files.into_iter().flatten().try_for_each(|path| output::check(path))?;
     let mesh = input::model(&args.model, args.place)?;
     let plan = plan(&mesh, &settings, args.paper_exact)
         .map_err(|source| Failure::Plan { name: args.model.clone(), source })?;
@@ -89,7 +91,10 @@ fn pictures(args: &PlanArgs, plan: &Plan) -> Result<(), Failure> {
         output::folder(folder)?;
         for (position, layer) in plan.strand.layers().iter().enumerate() {
             let name = format!("layer-{:04}.svg", layer.index);
-            output::write(&folder.join(name), layer_svg(&plan.strand, position, &SvgStyle::default()).as_bytes())?;
+            output::write(
+                &folder.join(name),
+                layer_svg(&plan.strand, position, &SvgStyle::default()).as_bytes(),
+            )?;
         }
     }
     if let Some(svg) = overview(args.svg.is_some() || args.png.is_some()) {
@@ -106,5 +111,6 @@ fn pictures(args: &PlanArgs, plan: &Plan) -> Result<(), Failure> {
 }
 
 fn json(value: &impl serde::Serialize) -> Result<Vec<u8>, Failure> {
-    serde_json::to_vec_pretty(value).map_err(|source| Failure::Output { what: "report", source: Box::new(source) })
+    serde_json::to_vec_pretty(value)
+        .map_err(|source| Failure::Output { what: "report", source: Box::new(source) })
 }

@@ -11,7 +11,8 @@ pub(crate) struct PlanBar {
 impl PlanBar {
     pub(crate) fn new() -> Self {
         let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
-        if let Ok(style) = ProgressStyle::with_template("{msg:>9} {wide_bar} {pos}/{len} layers, {eta} left") {
+        if let Ok(style) = ProgressStyle::with_template("{msg:>9} {wide_bar} {pos}/{len} layers, {eta} left")
+        {
             bar.set_style(style);
         }
         bar.set_message("slicing");

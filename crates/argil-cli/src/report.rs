@@ -100,9 +100,17 @@ pub(crate) fn summary(plan: &Plan) -> String {
     for (kind, count) in losses(plan) {
         text.push_str(&format!("note: {count} places: {kind}\n"));
     }
-    let times: Vec<String> =
-        plan.times.listed().iter().map(|(name, time)| format!("{name} {:.0}", time.as_secs_f64() * 1e3)).collect();
-    text.push_str(&format!("time in ms: {} = {:.0}", times.join(", "), plan.times.total().as_secs_f64() * 1e3));
+    let times: Vec<String> = plan
+        .times
+        .listed()
+        .iter()
+        .map(|(name, time)| format!("{name} {:.0}", time.as_secs_f64() * 1e3))
+        .collect();
+    text.push_str(&format!(
+        "time in ms: {} = {:.0}",
+        times.join(", "),
+        plan.times.total().as_secs_f64() * 1e3
+    ));
     text
 }
 
