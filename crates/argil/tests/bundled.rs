@@ -30,9 +30,9 @@ macro_rules! sound {
 sound! {
     arch_is_sound: "arch" at 1.5 mm;
     columns_are_sound: "columns" at 1.5 mm;
-    cup_is_sound: "cup" at 2.0 mm;
+    cup_is_sound: "cup" at 1.5 mm;
     hanging_island_is_sound: "hanging-island" at 1.5 mm;
-    nested_rings_are_sound: "nested-rings" at 2.0 mm;
+    nested_rings_are_sound: "nested-rings" at 1.5 mm;
     spire_is_sound: "spire" at 1.5 mm;
     table_is_sound: "table" at 1.5 mm;
 }
