@@ -39,10 +39,8 @@ impl CandidateLists {
         self.pairs.clear();
         for a in 0..n {
             self.nearest.clear();
-            for b in 0..n {
-                if a == b {
-                    continue;
-                }
+            // Beginning with the next node, so that equal points do not all choose the same few.
+            for b in (a + 1..n).chain(0..a) {
                 let distance = metric.distance(a, b);
                 if self.nearest.len() == count {
                     if self.nearest.last().is_none_or(|farthest| distance >= farthest.distance) {

@@ -4,14 +4,17 @@
 mod array_tour;
 mod candidates;
 mod construction;
+mod contraction;
 mod exact;
+mod exchange;
 mod kicks;
+mod local_search;
 mod metric;
 mod options;
-mod or_3opt;
 mod random;
 mod solver;
 mod tour;
+mod work_queue;
 
 pub use metric::{MatrixMetric, Metric, TourError};
 pub use options::TourOptions;

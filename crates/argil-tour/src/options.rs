@@ -8,18 +8,18 @@ pub struct TourOptions {
     /// Up to this many nodes the tour is the shortest there is, by dynamic programming. Every further node
     /// doubles time and memory, so that more than 16 counts as 16.
     pub exact_up_to: usize,
-    /// How many nearest nodes each node counts among its candidates, besides those the caller adds. Fewer are
-    /// faster; with more, a kick finds more ways back.
+    /// How many nearest nodes each node counts among its candidates, at least 1, besides those the caller adds.
+    /// With fewer the search is faster and blinder.
     pub neighbours: usize,
-    /// How many kicks the iterated search spends a node. Time grows in proportion; 0 stops at the first local
-    /// optimum.
-    pub kicks_per_node: usize,
+    /// How many kicks the iterated search spends a node, 0 to stop at the first local optimum. Time grows in
+    /// proportion, by some 10 to 20 µs a kick. A budget that is negative or not finite counts as 0.
+    pub kicks_per_node: f64,
     /// What the kicks are drawn from. Every seed gives another tour of much the same length.
     pub seed: u64,
 }
 
 impl Default for TourOptions {
     fn default() -> Self {
-        Self { exact_up_to: 10, neighbours: 6, kicks_per_node: 30, seed: 0 }
+        Self { exact_up_to: 10, neighbours: 5, kicks_per_node: 1.0, seed: 0 }
     }
 }

@@ -3,22 +3,50 @@
 use crate::array_tour::ArrayTour;
 use crate::candidates::CandidateLists;
 use crate::construction::{GreedyEdge, mend};
+use crate::contraction::Contraction;
 use crate::exact::{HeldKarp, MOST_NODES};
-use crate::or_3opt::{LocalSearch, WorkQueue};
+use crate::local_search::LocalSearch;
 use crate::random::SplitMix;
+use crate::work_queue::WorkQueue;
 use crate::{Metric, Tour, TourOptions};
+
+/// From this many nodes on, the tour through greedy paths comes first. Fewer nodes have no large features.
+const FEWEST_CONTRACTED: usize = 100;
+
+/// How many nodes there are to a path. With more, the paths decide too much; with fewer, the smaller search takes
+/// as long as the large one.
+const NODES_PER_PATH: usize = 10;
+
+/// The kicks that the smaller search spends a node.
+const KICKS_PER_END: usize = 2;
 
 /// The memory of a search, kept from layer to layer.
 ///
-/// A solver remembers nothing that changes a tour: the same call gives the same tour from a new solver.
+/// A solver remembers nothing that changes a tour: a new one would find the same.
+///
+/// # Example
+/// ```
+/// use argil_tour::{MatrixMetric, TourOptions, TourSolver};
+///
+/// let mut solver = TourSolver::new();
+/// let options = TourOptions { exact_up_to: 3, ..TourOptions::default() };
+/// // The corners of a square, numbered criss-cross; the layer below has the same.
+/// let r = 2.0_f64.sqrt();
+/// let distances = [0.0, r, 1.0, 1.0, r, 0.0, 1.0, 1.0, 1.0, 1.0, 0.0, r, 1.0, 1.0, r, 0.0];
+/// let square = MatrixMetric::new(4, &distances)?;
+/// let above = solver.solve(&square, &[], None, &options);
+/// assert_eq!(above.order, [0, 2, 1, 3]);
+/// let below = solver.solve(&square, &[], Some(&above.order), &options);
+/// assert_eq!(below, above);
+/// # Ok::<(), argil_tour::TourError>(())
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct TourSolver {
-    candidates: CandidateLists,
-    greedy: GreedyEdge,
+    nodes: Level,
+    ends: Level,
+    paths: GreedyEdge,
+    contraction: Contraction,
     held_karp: HeldKarp,
-    tour: ArrayTour,
-    queue: WorkQueue,
-    order: Vec<u32>,
 }
 
 impl TourSolver {
@@ -37,34 +65,70 @@ impl TourSolver {
         options: &TourOptions,
     ) -> Tour {
         let n = metric.nodes();
-        let distance = |a: u32, b: u32| metric.distance(a as usize, b as usize);
         if n <= options.exact_up_to.clamp(3, MOST_NODES) {
-            self.held_karp.solve(metric, &mut self.order);
-            return Tour::canonical(&self.order, distance);
+            self.held_karp.solve(metric, &mut self.nodes.order);
+        } else {
+            let mut random = SplitMix::new(options.seed);
+            let neighbours = options.neighbours.max(1);
+            self.nodes.candidates.build(metric, neighbours, candidates);
+            match start {
+                Some(start) => mend(metric, start, &mut self.nodes.order),
+                None if n < FEWEST_CONTRACTED => self.nodes.construct(metric),
+                None => self.construct_by_paths(metric, neighbours, &mut random),
+            }
+            self.nodes.search(metric, kicks(options.kicks_per_node, n), &mut random);
         }
-        self.candidates.build(metric, options.neighbours.max(1), candidates);
-        match start {
-            Some(start) => mend(metric, start, &mut self.order),
-            None => self.greedy.construct(metric, &self.candidates, &mut self.order),
-        }
-        self.tour.set(&self.order);
+        Tour::canonical(&self.nodes.order, |a, b| metric.distance(a as usize, b as usize))
+    }
+
+    /// Makes greedy paths, and of a short tour through them a tour of all nodes.
+    fn construct_by_paths<M: Metric>(&mut self, metric: &M, neighbours: usize, random: &mut SplitMix) {
+        let n = metric.nodes();
+        self.paths.make_paths(n, &self.nodes.candidates, n / NODES_PER_PATH);
+        self.contraction.set(&self.paths);
+        let ends = self.contraction.metric(metric);
+        // One of the nearest is the other end of the path, which is a neighbour already.
+        self.ends.candidates.build(&ends, neighbours + 1, &[]);
+        self.ends.construct(&ends);
+        self.ends.search(&ends, KICKS_PER_END * ends.nodes(), random);
+        self.contraction.expand(&self.ends.order, &self.paths, &mut self.nodes.order);
+    }
+}
+
+/// What one local search works on.
+#[derive(Clone, Debug, Default)]
+struct Level {
+    candidates: CandidateLists,
+    greedy: GreedyEdge,
+    tour: ArrayTour,
+    queue: WorkQueue,
+    /// The tour before and after the search.
+    order: Vec<u32>,
+}
+
+impl Level {
+    fn construct<M: Metric>(&mut self, metric: &M) {
+        self.greedy.construct(metric, &self.candidates, &mut self.order);
+    }
+
+    fn search<M: Metric>(&mut self, metric: &M, kicks: usize, random: &mut SplitMix) {
+        let n = metric.nodes();
+        self.tour.set(&self.order, |a, b| metric.distance(a as usize, b as usize));
         self.queue.reset(n);
-        let length: f64 =
-            (0..n).map(|k| distance(self.order[k], self.order[(k + 1) % n])).filter(|d| d.is_finite()).sum();
-        let mut search = LocalSearch {
-            metric,
-            candidates: &self.candidates,
-            tour: &mut self.tour,
-            queue: &mut self.queue,
-            least_gain: 1e-12 * length,
-        };
+        let mut search = LocalSearch::new(metric, &self.candidates, &mut self.tour, &mut self.queue);
         for &node in &self.order {
             search.queue.push(node);
         }
         search.descend(100 * n);
-        search.iterate(options.kicks_per_node.saturating_mul(n), &mut SplitMix::new(options.seed));
-        Tour::canonical(self.tour.order(), distance)
+        search.iterate(kicks, random);
+        self.order.clear();
+        self.order.extend(self.tour.stops().iter().map(|stop| stop.node));
     }
+}
+
+/// The number of kicks for `n` nodes; a budget that is no positive number gives none.
+fn kicks(per_node: f64, n: usize) -> usize {
+    if per_node.is_finite() { (per_node * n as f64) as usize } else { 0 }
 }
 
 /// Finds a short closed tour through all nodes of `metric`.
@@ -73,10 +137,11 @@ impl TourSolver {
 /// nearest ones: those whose Voronoi cells touch its own, for instance, without which the search is caught inside
 /// dense patches. It may be empty, and entries that are no nodes are passed over. `start` is where the search
 /// begins, or greedy construction if there is none; the tour is never longer than a `start` that visits every
-/// node once. Another `start` is mended first.
+/// node once, but for rounding. Another `start` is mended first: what is missing is inserted.
 ///
 /// # Complexity
-/// O(n²) distances to find the nearest nodes; beyond that about O(n) for each kick a node, and memory in O(n).
+/// O(n²) distances to find the nearest nodes; beyond that the work is in the number of kicks, each of which costs
+/// about the same at any n. Memory is in O(n), and in O(2ⁿ n) for the few nodes that are solved exactly.
 ///
 /// # Example
 /// ```
