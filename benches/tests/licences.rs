@@ -90,9 +90,10 @@ fn one(words: &mut &[&str]) -> bool {
     }
 }
 
-/// A version as numbers, so that 1.100 comes after 1.89.
-fn version(text: &str) -> Vec<u64> {
-    text.split('.').map(|part| part.parse().expect("a Rust version is made of numbers")).collect()
+/// A version as numbers, so that 1.100 comes after 1.89, and 1.89 is 1.89.0.
+fn version(text: &str) -> [u64; 3] {
+    let mut parts = text.split('.').map(|part| part.parse().expect("a Rust version is made of numbers"));
+    [(); 3].map(|()| parts.next().unwrap_or(0))
 }
 
 #[test]
