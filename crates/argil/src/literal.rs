@@ -22,10 +22,21 @@
 //! degenerate sliver.
 //!
 //! ```
-//! use argil::{Planner, literal};
-//! // One stage of the text in a planner that is otherwise argil's own. Its check would refuse most models.
-//! let planner = Planner { support: literal::StrideSupport, checked: false, ..Planner::default() };
-//! assert_ne!(planner.checked, Planner::default().checked);
+//! use argil::{Planner, Settings, literal};
+//! // One stage of the text among argil's own, to see what it alone does.
+//! let own = Planner::default();
+//! let mut planner = Planner {
+//!     slice: own.slice,
+//!     safeguard: own.safeguard,
+//!     support: literal::StrideSupport,
+//!     route: own.route,
+//!     smooth: own.smooth,
+//!     seam: own.seam,
+//!     checked: false,
+//! };
+//! let mesh = argil::mesh::read_stl(&argil_models::by_name("columns").expect("bundled").to_stl())?;
+//! assert!(planner.plan(&mesh, &Settings::for_width(4.0))?.strand.length() > 0.0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 mod elastic;
