@@ -45,12 +45,12 @@ fn body(seed: u64) -> Mesh {
         let stands = part < 2;
         let from = if stands { lot.point(-1.0, 2.0) } else { lot.point(2.0, TOP - 3.0) };
         let thick = lot.between(1.6, 3.6);
-        let part = if lot.next() % 3 == 0 {
+        let part = if lot.next().is_multiple_of(3) {
             Field::sphere(from, thick)
         } else {
             Field::rod((from, thick), (lot.point(2.0, TOP - 3.0), lot.between(1.6, 3.0)))
         };
-        if lot.next() % 2 == 0 { body.blended(part, 2.0) } else { body.union(part) }
+        if lot.next().is_multiple_of(2) { body.blended(part, 2.0) } else { body.union(part) }
     });
     let room = Bounds { min: DVec3::new(-REACH, -REACH, 0.0), max: DVec3::new(REACH, REACH, TOP) };
     let solid = mesh_of(&body, room, 0.7).expect("the room spans a grid");
