@@ -346,7 +346,7 @@ impl<'a> Splice<'a> {
         for hop in &tour.hops {
             match hop.stop {
                 Stop::Wall(wall) if tour.outer == Some(wall) => {
-                    self.put(self.walls[wall][0], true, None, tour.leg)
+                    self.put(self.walls[wall][0], true, None, tour.leg);
                 }
                 Stop::Wall(wall) => self.wall(wall),
                 Stop::Demand(demand) => self.put(self.demands[demand], false, Some(demand), tour.leg),

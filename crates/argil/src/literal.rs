@@ -5,7 +5,7 @@
 //!
 //! | stage | section | what the text leaves hanging |
 //! |---|---|---|
-//! | [`StrideSupport`] | 3.2, Eq. 1 | stretches of up to twice ε_along |
+//! | [`StrideSupport`] | 3.2, Eq. 1 | stretches of up to twice `ε_along` |
 //! | [`SplicedRoute`] | 3.3 | crossings at connection points, straight through walls, and of mixed edges |
 //! | [`LiteralElastic`] | 3.4, Eq. 2, 3, 5 and 6 | what retracting tips held |
 //! | [`NearestStarts`] | 3.3, its last paragraph | starts over nothing, and steps as long as they come |

@@ -8,7 +8,7 @@ use crate::stages::Smooth;
 
 /// The energies and weights that section 3.4 prints: Eq. 2, 3, 5 and 6, with the one mend that Eq. 6 needs to be defined.
 ///
-/// Every free vertex, whether it holds something or not, is kept within ε_across of its candidate along the normal of the path
+/// Every free vertex, whether it holds something or not, is kept within `ε_across` of its candidate along the normal of the path
 /// ([`relax_literally`]). The distance of Eq. 5 is the exact one that every planner passes; Eq. 4 gives neither kernel
 /// nor radius, and [`ImlsField`](argil_elastic::ImlsField) is there to try some.
 ///

@@ -6,7 +6,7 @@ use argil_support::{SupportPoint, stride_supports};
 use crate::Settings;
 use crate::stages::Support;
 
-/// Support points at a stride of ε_along, wherever Eq. 1 finds no contact within half of it (section 3.2).
+/// Support points at a stride of `ε_along`, wherever Eq. 1 finds no contact within half of it (section 3.2).
 ///
 /// The criterion is taken whole, with nothing in hand for what comes after: the text has no margin. Where a cycle is
 /// begun to be walked is not said; here it is its first vertex.
