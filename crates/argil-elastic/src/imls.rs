@@ -8,8 +8,8 @@ use crate::{Clearance, ElasticError};
 /// "Feature Preserving Point Set Surfaces based on Non-Linear Kernel Regression" (2009),
 /// <https://doi.org/10.1111/j.1467-8659.2009.01388.x>.
 ///
-/// f(y) = Σ n_k · (y − x_k) φ_k(y) / Σ φ_k(y) with φ_k(y) = exp(−|y − x_k|² / radius²). The paper names neither the
-/// kernel nor its radius, and much hangs on it: a radius of two bead widths gives wrong signs near concave parts, one
+/// `f(y) = Σ n_k · (y − x_k) φ_k(y) / Σ φ_k(y)` with `φ_k(y) = exp(−|y − x_k|² / radius²)`. The paper names neither
+/// the kernel nor its radius, and much hangs on it: a radius of two bead widths gives wrong signs near concave parts, one
 /// below the vertex spacing ripples, and any Gaussian underflows to 0/0 some 27 radii away. Take about the spacing
 /// of the vertices, or better an exact signed distance; this type exists so that the two can be compared.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,12 +8,15 @@ use crate::rod::Rod;
 
 /// How far any vertex may move before the lists are made anew, in w.
 ///
-/// Larger keeps the lists valid for longer but fills them with edges that are checked in vain. A third of a width
-/// is about one capped step; later steps are much shorter.
-const SKIN: f64 = 0.4;
+/// Just more than one capped step of the default options; the later steps are much shorter. Thicker, the lists
+/// would last longer but fill with edges that are checked in vain; neither is dearer than the other around here.
+const SKIN: f64 = 0.34;
 
 /// Slack against rounding when a distance is compared with a list's reach, in w.
 const ROUNDING: f64 = 1e-9;
+
+/// Slack against rounding where an edge is cut at the rows of the grid, in buckets.
+const CUTTING: f64 = 1e-6;
 
 /// An edge that may repel a vertex, and the part of it that is far enough along the path to do so.
 #[derive(Clone, Copy, Debug)]
@@ -32,6 +35,8 @@ pub(crate) struct Opposite {
 pub(crate) struct Neighbours {
     /// Where the vertices were when the lists were made, in w.
     reference: Vec<DVec2>,
+    /// Middle and half the length of every edge at the reference.
+    discs: Vec<(DVec2, f64)>,
     /// Per edge with a free end: edges that may come nearer than w to its first vertex, if that is free.
     opposite: Lists<Opposite>,
     /// Per edge with a free end: other edges that it may come to cross or to touch.
@@ -98,23 +103,38 @@ impl Neighbours {
             return;
         }
         self.grid.fill(rod, points);
-        let radius = |distance: Option<f64>| distance.map_or(-1.0, |d| d + 2.0 * SKIN + ROUNDING);
+        let radius =
+            |distance: Option<f64>| distance.map_or(f64::NEG_INFINITY, |d| d + 2.0 * SKIN + ROUNDING);
         let (repulsion, touch) = (radius(reach.repulsion), radius(reach.touch));
+        self.discs.clear();
+        self.discs.extend((0..points.len()).map(|k| {
+            let (a, b) = (points[k], points[rod.next(k)]);
+            (a.midpoint(b), 0.5 * a.distance(b))
+        }));
         for &e in &rod.edges {
             let e = e as usize;
             let (a, b) = (points[e], points[rod.next(e)]);
-            let repelled = if rod.is_free(e) { repulsion } else { -1.0 };
+            let (middle, half) = self.discs[e];
+            let repelled = if rod.is_free(e) { repulsion } else { f64::NEG_INFINITY };
             let (opposite, crossable) = (&mut self.opposite.items, &mut self.crossable.items);
+            let discs = &self.discs;
+            // Negative where a fixed vertex is not repelled and crossings are of no interest: nothing is near then.
             self.grid.visit(a, b, repelled.max(touch), |k| {
-                let (c, d) = (points[k], points[rod.next(k)]);
-                if boxes_within(a, a, c, d, repelled) {
-                    if let Some((from, to)) = rod.part_beyond(e, k, reach.skip) {
-                        opposite.push(Opposite { edge: k as u32, from, to });
-                    }
+                let (other, other_half) = discs[k];
+                let near = repelled + other_half;
+                if near >= 0.0
+                    && other.distance_squared(a) <= near * near
+                    && let Some((from, to)) = rod.part_beyond(e, k, reach.skip)
+                {
+                    opposite.push(Opposite { edge: k as u32, from, to });
                 }
                 // A pair of free edges is listed once; edges that share a vertex cannot cross properly.
-                let once = k > e || !rod.edge_has_free_end(k);
-                if once && boxes_within(a, b, c, d, touch) && rod.edges_apart(e, k) > 1 {
+                let near = touch + half + other_half;
+                if near >= 0.0
+                    && other.distance_squared(middle) <= near * near
+                    && (k > e || !rod.edge_has_free_end(k))
+                    && rod.edges_apart(e, k) > 1
+                {
                     crossable.push(k as u32);
                 }
             });
@@ -221,6 +241,9 @@ impl Grid {
 
     /// Calls `found` once for every edge that may lie within `radius` of the segment `a`–`b`.
     fn visit(&mut self, a: DVec2, b: DVec2, radius: f64, mut found: impl FnMut(usize)) {
+        if radius < 0.0 {
+            return;
+        }
         self.query += 1;
         let query = self.query;
         let mut met = std::mem::take(&mut self.met);
@@ -240,30 +263,29 @@ impl Grid {
     ///
     /// By rows, so that a long slanted edge fills the buckets along it and not its bounding box.
     fn each_row(&self, a: DVec2, b: DVec2, radius: f64, mut found: impl FnMut(Range<usize>)) {
+        // Relative to the corner, so that a path far from the origin is cut as precisely as one at it.
+        let (a, b) = (a - self.low, b - self.low);
         let (lower, upper) = if a.y <= b.y { (a, b) } else { (b, a) };
-        let first = self.row(lower.y - radius);
-        let last = self.row(upper.y + radius);
         let slope = (upper.x - lower.x) / (upper.y - lower.y);
-        for row in first..=last {
+        let steep = upper.y - lower.y > self.cell;
+        for row in self.bucket(lower.y - radius, self.rows)..=self.bucket(upper.y + radius, self.rows) {
             let (mut left, mut right) = (lower.x.min(upper.x), lower.x.max(upper.x));
-            if first < last && slope.is_finite() {
-                let base = self.low.y + row as f64 * self.cell - radius;
-                let enter = lower.x + slope * (base - lower.y);
-                let leave = lower.x + slope * (base + self.cell + 2.0 * radius - lower.y);
-                let slack = ROUNDING * self.cell;
+            if steep {
+                let base = row as f64 * self.cell - radius - lower.y;
+                let enter = lower.x + slope * base;
+                let leave = lower.x + slope * (base + self.cell + 2.0 * radius);
+                let slack = CUTTING * self.cell;
                 left = left.max(enter.min(leave) - slack);
-                right = right.min(enter.max(leave) + slack);
+                right = right.min(enter.max(leave) + slack).max(left);
             }
             let base = row * self.columns;
-            found(base + self.column(left - radius)..base + self.column(right + radius) + 1);
+            let first = base + self.bucket(left - radius, self.columns);
+            found(first..base + self.bucket(right + radius, self.columns) + 1);
         }
     }
 
-    fn column(&self, x: f64) -> usize {
-        (((x - self.low.x) / self.cell) as usize).min(self.columns - 1)
-    }
-
-    fn row(&self, y: f64) -> usize {
-        (((y - self.low.y) / self.cell) as usize).min(self.rows - 1)
+    /// Which of `count` rows or columns a distance from the corner falls into; the nearest if none.
+    fn bucket(&self, from_corner: f64, count: usize) -> usize {
+        ((from_corner / self.cell) as usize).min(count - 1)
     }
 }

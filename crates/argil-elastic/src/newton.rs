@@ -31,6 +31,9 @@ const LEAST_PART: f64 = 1.0 / 64.0;
 /// Vertices to either side of an offending edge whose step is cut with it, so that no kink is left there.
 const CUT_ALONG: usize = 2;
 
+/// Part of its step that a vertex is asked for next if the step took it from between two strands to the other side.
+const AT_CREASE: f64 = 0.1;
+
 /// How Sec. 3.4 is read; the readings share the energies, the system and the descent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Reading {
@@ -191,6 +194,16 @@ enum Advance {
     Stuck,
 }
 
+/// What a trial turned out to be.
+enum Verdict {
+    /// Enough lower; it is now the current position.
+    Lower,
+    /// Evaluated, and not low enough.
+    NotLower,
+    /// Not evaluated: what is left of the step leads uphill.
+    Uphill,
+}
+
 /// What is known about the step of every free vertex, by its number.
 #[derive(Debug, Default)]
 struct Steps {
@@ -274,24 +287,33 @@ impl Descent<'_> {
             let Steps { step, stiffness, damping, .. } = &mut *self.memory;
             let longest = |step: &[DVec2]| step.iter().map(|s| s.length()).fold(0.0, f64::max);
             let mut solved = system.solve(step, |b| *damping + stiffness[b]);
-            if solved && attempt == 0 && longest(step) <= tolerance && stiffness.iter().any(|&s| s > 0.0) {
+            let held = *damping > DAMPING || stiffness.iter().any(|&s| s > 0.0);
+            if solved && attempt == 0 && held && longest(step) <= tolerance {
                 // A path that is only held still has not settled.
                 stiffness.fill(0.0);
-                solved = system.solve(step, |_| *damping);
+                *damping = DAMPING;
+                solved = system.solve(step, |_| DAMPING);
             }
             if !solved {
                 *damping *= DAMPING_UP;
                 continue;
             }
             let settled = attempt == 0 && longest(step) <= tolerance;
-            let obstructed = self.place_within_bounds(share);
-            let stepped = self.descend(system);
-            if settled {
-                return Advance::Settled { stepped };
-            }
-            if stepped {
-                self.memory.relent();
-                return Advance::Stepped;
+            let mut obstructed = self.place_within_bounds(share);
+            match self.descend(system) {
+                Verdict::Lower if settled => return Advance::Settled { stepped: true },
+                Verdict::Lower => {
+                    self.memory.relent();
+                    return Advance::Stepped;
+                }
+                _ if settled => return Advance::Settled { stepped: false },
+                Verdict::Uphill => {}
+                Verdict::NotLower => {
+                    for b in self.task.objective.tossed(self.current, self.trial) {
+                        self.memory.part[b] *= AT_CREASE;
+                        obstructed = true;
+                    }
+                }
             }
             if obstructed {
                 self.memory.stiffen(system, share);
@@ -306,19 +328,19 @@ impl Descent<'_> {
     }
 
     /// Makes the trial the current position if its energy is low enough (Armijo).
-    fn descend(&mut self, system: &NormalSystem) -> bool {
+    fn descend(&mut self, system: &NormalSystem) -> Verdict {
         let rod = self.task.objective.rod;
         let change = |v: u32| self.trial.scaled[v as usize] - self.current.scaled[v as usize];
         let promised: f64 = rod.free.iter().zip(&system.gradient).map(|(&v, g)| g.dot(change(v))).sum();
         if promised >= 0.0 {
-            return false;
+            return Verdict::Uphill;
         }
         self.task.objective.evaluate(self.trial, self.neighbours);
-        let descends = self.trial.energy <= self.current.energy + SUFFICIENT * promised;
-        if descends {
-            std::mem::swap(self.current, self.trial);
+        if self.trial.energy > self.current.energy + SUFFICIENT * promised {
+            return Verdict::NotLower;
         }
-        descends
+        std::mem::swap(self.current, self.trial);
+        Verdict::Lower
     }
 
     /// Places the trial at `share` of the step, less where a vertex would go too far, leave its envelope, cross or

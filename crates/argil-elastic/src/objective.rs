@@ -143,6 +143,20 @@ impl Objective<'_> {
         state.energy = if energy.is_nan() { f64::INFINITY } else { energy };
     }
 
+    /// Free vertices that are repelled from one side in the one state and from the other in the other.
+    ///
+    /// Half-way between two strands the energy has a crease, which no quadratic model knows of.
+    pub(crate) fn tossed<'s>(&'s self, from: &'s State, to: &'s State) -> impl Iterator<Item = usize> + 's {
+        let mut others = to.contacts.iter().peekable();
+        from.contacts.iter().filter_map(move |contact| {
+            // Both lists are in the order of the path.
+            while others.next_if(|other| other.vertex < contact.vertex).is_some() {}
+            let other = others.next_if(|other| other.vertex == contact.vertex)?;
+            let turned = other.edge != contact.edge && contact.away.dot(other.away) < 0.0;
+            turned.then(|| self.rod.number[contact.vertex as usize] as usize)
+        })
+    }
+
     /// Fills the system with gradient and Hessian model at an evaluated state.
     pub(crate) fn assemble(&self, state: &State, system: &mut NormalSystem) {
         system.clear();

@@ -14,25 +14,25 @@ pub struct ElasticOptions {
     pub width: f64,
     /// Radius ε of the disc about an anchor that a carrier never leaves (Eq. 6), in **mm**.
     ///
-    /// 0.3 w in the paper (ε_across). Smaller keeps more of the bead above on the bead below, larger lets strands
+    /// 0.3 w in the paper (`ε_across`). Smaller keeps more of the bead above on the bead below, larger lets strands
     /// shorten faster from layer to layer.
     pub envelope: f64,
-    /// α_l of Eq. 2: every edge pulls towards this share of its candidate length. 0.9 in the paper.
+    /// `α_l` of Eq. 2: every edge pulls towards this share of its candidate length. 0.9 in the paper.
     pub target_ratio: f64,
-    /// μ_length of Eq. 2. 10 in the paper; needs no power of w.
+    /// `μ_length` of Eq. 2. 10 in the paper; needs no power of w.
     pub length: f64,
-    /// μ_bend of Eq. 3, in w²: 0.3 mm² / (1.5 mm)².
+    /// `μ_bend` of Eq. 3, in w²: 0.3 mm² / (1.5 mm)².
     ///
     /// The paper has 0.01 mm², a thousandth of the tension, which leaves every corner of the candidate standing.
     /// Repulsion needs stiffer strands than that, or they wiggle between their carriers.
     pub bend: f64,
-    /// μ_dev of Eq. 6, in w: 0.001 mm / 1.5 mm. Tiny on purpose: a wall, felt only close to the rim.
+    /// `μ_dev` of Eq. 6, in w: 0.001 mm / 1.5 mm. Tiny on purpose: a wall, felt only close to the rim.
     pub deviation: f64,
-    /// μ_clear of Eq. 5, in w: 0.01 mm / 1.5 mm. A hundred times more halves no contact and doubles the strand.
+    /// `μ_clear` of Eq. 5, in w: 0.01 mm / 1.5 mm. A hundred times more halves no contact and doubles the strand.
     pub clearance: f64,
     /// β of Eq. 5, per w: 0.5 / mm · 1.5 mm. Larger makes the clearance a harder wall.
     pub sharpness: f64,
-    /// ε_model of Eq. 5, the clearance kept from the safeguard. 2 w in the paper.
+    /// `ε_model` of Eq. 5, the clearance kept from the safeguard. 2 w in the paper.
     pub clear_distance: f64,
     /// μ of the repulsion between strands nearer than w, per w: 1 / mm · 1.5 mm. Not in the paper.
     ///

@@ -22,7 +22,7 @@ pub(crate) struct Rod {
     pub(crate) number: Vec<u32>,
     /// Edges with at least one free end, ascending.
     pub(crate) edges: Vec<u32>,
-    /// L_k of the candidate, floored so that nothing divides by zero.
+    /// `L_k` of the candidate, floored so that nothing divides by zero.
     pub(crate) rest: Vec<f64>,
     /// Arc length of every vertex from vertex 0.
     pub(crate) arc: Vec<f64>,
@@ -96,6 +96,9 @@ impl Rod {
             ahead += self.perimeter;
         }
         let behind = self.perimeter - ahead - self.rest[k];
+        if ahead + self.rest[k] <= skip || behind + self.rest[k] <= skip {
+            return None;
+        }
         let from = ((skip - ahead) / self.rest[k]).max(0.0);
         let to = 1.0 - ((skip - behind) / self.rest[k]).max(0.0);
         (from < to).then_some((from, to))

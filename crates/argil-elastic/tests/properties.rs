@@ -49,7 +49,7 @@ impl Layer {
             clear_of: Some(&disc),
             felt: &self.felt,
         };
-        relax(&path, options).unwrap()
+        relax(&path, options).expect("generated layers are in order")
     }
 
     fn scaled(&self, factor: f64) -> Self {
