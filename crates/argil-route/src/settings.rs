@@ -55,7 +55,7 @@ impl RouteSettings {
             across: 0.3 * width,
             coherence: 0.9,
             wall_penalty: 2.0,
-            root_cost: 10.0 / 3.0,
+            root_cost: 2.5,
             attachment_gap: 5.0 / 3.0,
             slack: 0.9 * 0.65 * 0.3 * width,
             relaxations: 1,

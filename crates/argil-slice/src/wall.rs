@@ -36,7 +36,7 @@ struct Cleaning {
 
 /// Insets in w/2 that are tried in turn on an outline in which no bead fits: the first that
 /// exists squeezes the clay out least.
-const THIN_INSETS: [f64; 6] = [0.8, 0.6, 0.45, 0.3, 0.2, 0.1];
+const THIN_INSETS: [f64; 9] = [0.96, 0.92, 0.87, 0.8, 0.6, 0.45, 0.3, 0.2, 0.1];
 
 /// A thin loop is printed if it is at least this long and this wide, in w: less is a blob.
 const THIN_LENGTH: f64 = 0.8;

@@ -1,6 +1,6 @@
 //! From planned cycles to the strand: where each layer begins, and the steps in between.
 
-use argil_curve::{ClosedCurve, DVec2};
+use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex};
 use argil_route::Leg;
 use argil_strand::{Move, Role, Strand, StrandLayer, SupportSource};
 
@@ -11,6 +11,11 @@ use crate::{PlanError, Settings};
 /// What a start on a wall costs against one on free strand, in w²: the seam shows on a wall, while clay that is cut
 /// away hides it. A quarter of the longest step squared, so that it never outweighs a good chain.
 const VISIBLE: f64 = 0.13;
+/// What a start on a wall costs beside a root, in w²: a step that comes from the other side of the wall would make the strand
+/// pass straight through it.
+const BESIDE_ROOT: f64 = 1.0;
+/// How near to a root that is, in w.
+const ROOT_REACH: f64 = 0.8;
 
 /// Joins the cycles by a chain of starts.
 pub(crate) fn strand(
@@ -18,29 +23,38 @@ pub(crate) fn strand(
     seam: &mut impl Seam,
     settings: &Settings,
 ) -> Result<Strand, PlanError> {
+    let width = settings.width;
     let cycles: Vec<ClosedCurve> = layers.iter().map(|layer| layer.curve.clone()).collect();
-    let walls: Vec<argil_curve::SegmentIndex> =
-        layers.iter().map(|layer| wall_segments(layer, settings.width)).collect();
+    let walls: Vec<SegmentIndex> = layers.iter().map(|layer| wall_segments(layer, width)).collect();
+    let roots: Vec<Vec<DVec2>> = layers.iter().map(roots).collect();
     let cost = |k: usize, p: DVec2| {
-        let on_wall = walls[k].nearest_within(p, 0.1 * settings.width).is_some();
-        if on_wall { VISIBLE * settings.width * settings.width } else { 0.0 }
+        if walls[k].nearest_within(p, 0.1 * width).is_none() {
+            return 0.0;
+        }
+        let beside = roots[k].iter().any(|root| root.distance(p) < ROOT_REACH * width);
+        (VISIBLE + if beside { BESIDE_ROOT } else { 0.0 }) * width * width
     };
     let starts = seam.starts(&cycles, settings, &cost)?;
     let mut strand_layers = Vec::with_capacity(layers.len());
-    let mut first = None;
+    let mut first: Option<DVec2> = None;
+    let mut below = None;
     for (layer, &start) in layers.iter().zip(&starts) {
-        let (begin, mut moves) = opened(layer, start, settings.grid);
+        let (begin, mut moves) = match below {
+            None => opened(layer, start, settings.grid),
+            Some(from) => clear_start(layer, start, from, settings),
+        };
         match first {
             None => first = Some(begin),
             Some(_) => moves.insert(0, Move { to: begin, role: Role::Seam }),
         }
+        below = Some(begin);
         let supports =
             layer.supports.iter().map(|s| SupportSource { at: s.position, needs: s.needs.clone() }).collect();
         strand_layers.push(StrandLayer {
             index: layer.report.index,
             z: layer.z,
             height: settings.layer_height,
-            width: settings.width,
+            width,
             moves,
             supports,
         });
@@ -48,10 +62,44 @@ pub(crate) fn strand(
     Ok(Strand::new(first.unwrap_or_default(), strand_layers)?)
 }
 
+/// The cycle opened at `start`, or near it where the step from `from` would cross the cycle after rounding: a step that
+/// runs along the very strand that it ends on may do so by one step of the grid.
+fn clear_start(layer: &PlannedLayer, start: f64, from: DVec2, settings: &Settings) -> (DVec2, Vec<Move>) {
+    let wanted = opened(layer, start, settings.grid);
+    if is_clear(from, &wanted) {
+        return wanted;
+    }
+    let nearest = layer.curve.nearest(from).s;
+    let beside = (1..=4).flat_map(|k| [1.0, -1.0].map(|side| start + side * f64::from(k) * 0.02 * settings.width));
+    std::iter::once(nearest)
+        .chain(beside)
+        .map(|arc| opened(layer, arc.rem_euclid(layer.curve.length()), settings.grid))
+        .find(|opened| is_clear(from, opened))
+        .unwrap_or(wanted)
+}
+
+/// Whether the step from `from` to an opened cycle crosses none of its stretches.
+fn is_clear(from: DVec2, (begin, moves): &(DVec2, Vec<Move>)) -> bool {
+    let step = Segment::new(from, *begin);
+    let mut at = *begin;
+    moves.iter().all(|m| {
+        let stretch = Segment::new(at, m.to);
+        at = m.to;
+        !stretch.crosses(&step)
+    })
+}
+
+/// Where the strand of a layer leaves and joins walls.
+fn roots(layer: &PlannedLayer) -> Vec<DVec2> {
+    let n = layer.legs.len();
+    let on_wall = |k: usize| layer.legs[k % n] == Leg::Wall;
+    (0..n).filter(|&k| on_wall(k) != on_wall(k + n - 1)).map(|k| layer.curve.points()[k]).collect()
+}
+
 /// The wall stretches of a layer.
-fn wall_segments(layer: &PlannedLayer, width: f64) -> argil_curve::SegmentIndex {
+fn wall_segments(layer: &PlannedLayer, width: f64) -> SegmentIndex {
     let walls = layer.curve.segments().zip(&layer.legs).filter(|(_, leg)| **leg == Leg::Wall).map(|(s, _)| s);
-    argil_curve::SegmentIndex::new(walls.collect(), width)
+    SegmentIndex::new(walls.collect(), width)
 }
 
 /// The cycle as moves from its start at the given arc back to it.
