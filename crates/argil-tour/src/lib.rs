@@ -1,4 +1,7 @@
-//! Short closed tours over any symmetric metric: Or-opt, 2-opt, Or-3opt, exact when small.
+#![doc = include_str!("../README.md")]
+//!
+//! The tour is the one through terminals and connection points of Sec. 3.3 of the paper, which takes it from an
+//! off-the-shelf solver. Here it may start from the layer above, and differs from it only where that is shorter.
 #![forbid(unsafe_code)]
 
 mod array_tour;

@@ -138,14 +138,14 @@ impl<'a, M: Metric> LocalSearch<'a, M> {
                         }
                     }
                 }
-                // The widest-open branches, best first.
-                let mut place = kept;
-                while place > 0 && branches[place - 1].open < opened {
-                    place -= 1;
-                }
-                if place < breadth {
+                // Keep the widest open, best first.
+                if kept < breadth || kept > 0 && branches[kept - 1].open < opened {
                     kept = breadth.min(kept + 1);
-                    branches[place..kept].rotate_right(1);
+                    let mut place = kept - 1;
+                    while place > 0 && branches[place - 1].open < opened {
+                        branches[place] = branches[place - 1];
+                        place -= 1;
+                    }
                     branches[place] = Branch { cut, open: opened };
                 }
             }

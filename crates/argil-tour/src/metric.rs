@@ -56,19 +56,18 @@ impl<'a> MatrixMetric<'a> {
     /// maker, for the local search balances gains that an asymmetry of any size could make circular.
     ///
     /// # Complexity
-    /// One pass over the matrix.
+    /// Two passes over the matrix.
     pub fn new(nodes: usize, entries: &'a [f64]) -> Result<Self, TourError> {
         if nodes.checked_mul(nodes) != Some(entries.len()) {
             return Err(TourError::NotSquare { nodes, entries: entries.len() });
         }
+        if let Some(k) = entries.iter().position(|value| !(value.is_finite() && *value >= 0.0)) {
+            return Err(TourError::NotADistance { row: k / nodes, column: k % nodes, value: entries[k] });
+        }
         for row in 0..nodes {
-            for column in 0..nodes {
-                let value = entries[row * nodes + column];
-                if !(value.is_finite() && value >= 0.0) {
-                    return Err(TourError::NotADistance { row, column, value });
-                }
-                let mirrored = entries[column * nodes + row];
-                if column > row && mirrored.is_finite() && value != mirrored {
+            for column in row + 1..nodes {
+                let (value, mirrored) = (entries[row * nodes + column], entries[column * nodes + row]);
+                if value != mirrored {
                     return Err(TourError::Asymmetric { row, column, value, mirrored });
                 }
             }

@@ -12,7 +12,8 @@ pub struct TourOptions {
     /// With fewer the search is faster and blinder.
     pub neighbours: usize,
     /// How many kicks the iterated search spends a node, 0 to stop at the first local optimum. Time grows in
-    /// proportion, by some 10 to 20 µs a kick. A budget that is negative or not finite counts as 0.
+    /// proportion, by some 10 to 20 µs a kick. Fewer than 50 nodes get the kicks of 50. A budget that is
+    /// negative or not finite counts as 0.
     pub kicks_per_node: f64,
     /// What the kicks are drawn from. Every seed gives another tour of much the same length.
     pub seed: u64,
@@ -20,6 +21,6 @@ pub struct TourOptions {
 
 impl Default for TourOptions {
     fn default() -> Self {
-        Self { exact_up_to: 10, neighbours: 5, kicks_per_node: 1.0, seed: 0 }
+        Self { exact_up_to: 12, neighbours: 5, kicks_per_node: 1.0, seed: 0 }
     }
 }

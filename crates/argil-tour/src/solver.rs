@@ -20,6 +20,9 @@ const NODES_PER_PATH: usize = 10;
 /// The kicks that the smaller search spends a node.
 const KICKS_PER_END: usize = 2;
 
+/// Fewer nodes get the kicks of this many: whether a small tour is found depends on the number of kicks as such.
+const FEWEST_BUDGETED: usize = 50;
+
 /// The memory of a search, kept from layer to layer.
 ///
 /// A solver remembers nothing that changes a tour: a new one would find the same.
@@ -128,7 +131,7 @@ impl Level {
 
 /// The number of kicks for `n` nodes; a budget that is no positive number gives none.
 fn kicks(per_node: f64, n: usize) -> usize {
-    if per_node.is_finite() { (per_node * n as f64) as usize } else { 0 }
+    if per_node.is_finite() { (per_node * n.max(FEWEST_BUDGETED) as f64) as usize } else { 0 }
 }
 
 /// Finds a short closed tour through all nodes of `metric`.
