@@ -25,9 +25,8 @@ impl Attachments {
     pub(crate) fn free_near(&self, wall: usize, curve: &ClosedCurve, wanted: f64) -> f64 {
         let length = curve.length();
         let gap = self.gap.min(0.25 * length);
-        let clear = |arc: f64| {
-            self.taken[wall].iter().map(|&t| curve.arc_gap(arc, t)).fold(f64::INFINITY, f64::min)
-        };
+        let clear =
+            |arc: f64| self.taken[wall].iter().map(|&t| curve.arc_gap(arc, t)).fold(f64::INFINITY, f64::min);
         let tries = (0.5 * length / self.step).ceil().min(200.0) as usize;
         let mut best = (clear(wanted), wanted);
         for k in 0..=tries {

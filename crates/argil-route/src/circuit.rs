@@ -92,9 +92,9 @@ fn turning(graph: &Multigraph, ends: &[EdgeEnd], shift: usize) -> f64 {
 /// Which ends lie on the same circuit.
 fn label(partner: &[EdgeEnd]) -> Partition {
     let mut circuits = Partition::new(partner.len());
-    for end in 0..partner.len() {
+    for (end, &mate) in partner.iter().enumerate() {
         circuits.join(end, opposite(end));
-        circuits.join(end, partner[end]);
+        circuits.join(end, mate);
     }
     circuits
 }

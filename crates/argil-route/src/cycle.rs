@@ -50,6 +50,9 @@ impl Cycle {
     #[must_use]
     pub fn length_of(&self, leg: Leg) -> f64 {
         let n = self.points.len();
-        (0..n).filter(|&k| self.legs[k] == leg).map(|k| self.points[k].distance(self.points[(k + 1) % n])).sum()
+        (0..n)
+            .filter(|&k| self.legs[k] == leg)
+            .map(|k| self.points[k].distance(self.points[(k + 1) % n]))
+            .sum()
     }
 }

@@ -95,7 +95,9 @@ impl Stops<'_> {
     fn merge(&self, left: &Excursion, right: &Excursion, a: usize, b: usize) -> Option<Excursion> {
         let ends = |e: &Excursion| (e.stops[0], e.stops[e.stops.len() - 1]);
         let ((lf, ll), (rf, rl)) = (ends(left), ends(right));
-        if (a != lf && a != ll) || (b != rf && b != rl) || (left.bound && right.bound && left.wall != right.wall)
+        if (a != lf && a != ll)
+            || (b != rf && b != rl)
+            || (left.bound && right.bound && left.wall != right.wall)
         {
             return None;
         }

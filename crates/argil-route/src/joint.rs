@@ -84,9 +84,8 @@ pub(crate) fn join_walls(
     }
     while joints.len() + 1 < nw {
         let from = chain_from(&joined, nodes, &hop);
-        let Some(nearest) = (0..nw)
-            .filter(|&w| !joined[w])
-            .min_by(|&a, &b| from[a].0.total_cmp(&from[b].0).then(a.cmp(&b)))
+        let Some(nearest) =
+            (0..nw).filter(|&w| !joined[w]).min_by(|&a, &b| from[a].0.total_cmp(&from[b].0).then(a.cmp(&b)))
         else {
             break;
         };
@@ -99,7 +98,8 @@ pub(crate) fn join_walls(
             }
             at = from[at].1;
         }
-        let arc = if last < nw { between[wall * nw + last].1 } else { walls[wall].nearest(demands[last - nw]).s };
+        let arc =
+            if last < nw { between[wall * nw + last].1 } else { walls[wall].nearest(demands[last - nw]).s };
         joints.push(Joint { wall, parent: at, arc });
         joined[wall] = true;
     }
@@ -108,14 +108,12 @@ pub(crate) fn join_walls(
 
 /// Cheapest chains from all joined walls: (cost, predecessor) of every node, by Dijkstra on the full graph.
 fn chain_from(joined: &[bool], nodes: usize, hop: &impl Fn(usize, usize) -> f64) -> Vec<(f64, usize)> {
-    let mut best: Vec<(f64, usize)> = (0..nodes)
-        .map(|k| (if joined.get(k) == Some(&true) { 0.0 } else { f64::INFINITY }, k))
-        .collect();
+    let mut best: Vec<(f64, usize)> =
+        (0..nodes).map(|k| (if joined.get(k) == Some(&true) { 0.0 } else { f64::INFINITY }, k)).collect();
     let mut done = vec![false; nodes];
     for _ in 0..nodes {
-        let Some(k) = (0..nodes)
-            .filter(|&k| !done[k])
-            .min_by(|&a, &b| best[a].0.total_cmp(&best[b].0).then(a.cmp(&b)))
+        let Some(k) =
+            (0..nodes).filter(|&k| !done[k]).min_by(|&a, &b| best[a].0.total_cmp(&best[b].0).then(a.cmp(&b)))
         else {
             break;
         };

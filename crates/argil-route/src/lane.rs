@@ -216,7 +216,8 @@ fn turn(
     let angle = first.perp_dot(second).atan2(first.dot(second)).rem_euclid(std::f64::consts::TAU);
     let bisector = first.rotate(DVec2::from_angle(0.5 * angle));
     if angle > 1.5 * std::f64::consts::PI {
-        let round = [centre + offset * first.perp(), centre + offset * bisector, centre - offset * second.perp()];
+        let round =
+            [centre + offset * first.perp(), centre + offset * bisector, centre - offset * second.perp()];
         if forward {
             out.extend(round);
         } else {

@@ -167,7 +167,8 @@ impl Router {
         let circuit = euler_circuit(&graph)?;
         let mut cycle = draw(&graph, &circuit, s.lane * s.width, s.spacing * s.width, s.grid);
         for (first, twin) in twins {
-            let carriers = cycle.carriers.iter().filter(|c| c.1 == first).map(|c| (c.0, twin)).collect::<Vec<_>>();
+            let carriers =
+                cycle.carriers.iter().filter(|c| c.1 == first).map(|c| (c.0, twin)).collect::<Vec<_>>();
             cycle.carriers.extend(carriers);
         }
         Ok(cycle)
@@ -272,7 +273,8 @@ fn add_wall(graph: &mut Multigraph, curve: &ClosedCurve, cuts: &mut Vec<(Cut, u3
 pub(crate) fn dot(demands: &[Demand], s: &RouteSettings) -> Cycle {
     let radius = (0.5 * s.slack).max(4.0 * s.grid);
     let centre = demands.first().map_or(DVec2::ZERO, |d| d.position);
-    let corners = (0..6).map(|k| centre + radius * DVec2::from_angle(f64::from(k) * std::f64::consts::FRAC_PI_3));
+    let corners =
+        (0..6).map(|k| centre + radius * DVec2::from_angle(f64::from(k) * std::f64::consts::FRAC_PI_3));
     let mut cycle = Cycle::of_wall(&corners.map(|p| (p / s.grid).round() * s.grid).collect::<Vec<_>>());
     cycle.legs.fill(Leg::Support);
     cycle.carriers = (0..demands.len()).map(|d| (0, d)).collect();

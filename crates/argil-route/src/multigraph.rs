@@ -108,7 +108,7 @@ impl Multigraph {
     /// The point towards which an edge leaves at one of its ends.
     pub(crate) fn heading(&self, end: EdgeEnd) -> DVec2 {
         let edge = &self.edges[end / 2];
-        let via = if end % 2 == 0 { edge.via.first() } else { edge.via.last() };
+        let via = if end.is_multiple_of(2) { edge.via.first() } else { edge.via.last() };
         via.copied().unwrap_or(self.positions[edge.ends[1 - end % 2] as usize])
     }
 
@@ -126,7 +126,8 @@ impl Multigraph {
         for (vertex, ends) in round.iter_mut().enumerate() {
             let centre = self.positions[vertex];
             ends.sort_by(|&a, &b| {
-                by_angle(centre, self.heading(a), self.heading(b)).then_with(|| self.rank(a).cmp(&self.rank(b)))
+                by_angle(centre, self.heading(a), self.heading(b))
+                    .then_with(|| self.rank(a).cmp(&self.rank(b)))
             });
         }
         round
@@ -135,7 +136,7 @@ impl Multigraph {
     /// Order of parallel copies round a vertex.
     fn rank(&self, end: EdgeEnd) -> (i32, usize) {
         let copy = i32::from(self.edges[end / 2].copy);
-        (if end % 2 == 0 { copy } else { -copy }, end)
+        (if end.is_multiple_of(2) { copy } else { -copy }, end)
     }
 }
 

@@ -25,7 +25,11 @@ pub struct Region {
 ///
 /// # Complexity
 /// O(walls · demands · points of a wall).
-pub fn regions(walls: &[Wall<'_>], curves: &[ClosedCurve], demands: &[DVec2]) -> Result<Vec<Region>, RouteError> {
+pub fn regions(
+    walls: &[Wall<'_>],
+    curves: &[ClosedCurve],
+    demands: &[DVec2],
+) -> Result<Vec<Region>, RouteError> {
     let depth = depths(walls)?;
     let mut deepest_first: Vec<usize> = (0..walls.len()).collect();
     deepest_first.sort_by_key(|&w| (std::cmp::Reverse(depth[w]), w));

@@ -150,11 +150,8 @@ impl RegionView<'_> {
             places.push((joint.wall, arc));
         }
         let (graph, cuts) = self.graph(&places, demands)?;
-        let among: Vec<u32> = cuts
-            .iter()
-            .map(|c| c.vertex)
-            .chain((0..demands.len()).map(|d| graph.terminal(d)))
-            .collect();
+        let among: Vec<u32> =
+            cuts.iter().map(|c| c.vertex).chain((0..demands.len()).map(|d| graph.terminal(d))).collect();
         let distances = self.distances(&graph, &among)?;
         // Stops are the joints first, each bound to its parent, then the demands.
         let mut reach: Vec<Vec<f64>> = Vec::with_capacity(among.len());
@@ -165,12 +162,8 @@ impl RegionView<'_> {
         }
         reach.extend(to_wall);
         let bound: Vec<bool> = (0..among.len()).map(|k| k < joints.len()).collect();
-        let stops = Stops {
-            distances: &distances,
-            to_wall: &reach,
-            bound: &bound,
-            root_cost: s.root_cost * s.width,
-        };
+        let stops =
+            Stops { distances: &distances, to_wall: &reach, bound: &bound, root_cost: s.root_cost * s.width };
         let mut excursions = stops.excursions();
         excursions.sort_by_key(|e| e.stops.len());
         let mut tours = Vec::with_capacity(excursions.len());
@@ -182,12 +175,14 @@ impl RegionView<'_> {
                 .copied()
                 .min_by(|&a, &b| reach[a][wall].total_cmp(&reach[b][wall]).then(a.cmp(&b)))
                 .unwrap_or_default();
-            let from = if nearest < joints.len() { cuts[nearest].at } else { demands[nearest - joints.len()] };
+            let from =
+                if nearest < joints.len() { cuts[nearest].at } else { demands[nearest - joints.len()] };
             let arc = taken.free_near(self.walls[wall], curve, curve.nearest(from).s);
             taken.take(self.walls[wall], arc);
             let home = Stop::Place(places.len());
             places.push((wall, arc));
-            let stop = |k: usize| if k < joints.len() { Stop::Place(k) } else { Stop::Demand(k - joints.len()) };
+            let stop =
+                |k: usize| if k < joints.len() { Stop::Place(k) } else { Stop::Demand(k - joints.len()) };
             tours.push(excursion.stops.iter().map(|&k| stop(k)).chain([home]).collect());
         }
         Ok(Sketch { places, tours })
@@ -212,11 +207,8 @@ impl RegionView<'_> {
     fn draw(&self, sketch: &Sketch, demands: &[DVec2]) -> Result<RegionPlan, RouteError> {
         let s = self.settings;
         let (graph, cuts) = self.graph(&sketch.places, demands)?;
-        let among: Vec<u32> = cuts
-            .iter()
-            .map(|c| c.vertex)
-            .chain((0..demands.len()).map(|d| graph.terminal(d)))
-            .collect();
+        let among: Vec<u32> =
+            cuts.iter().map(|c| c.vertex).chain((0..demands.len()).map(|d| graph.terminal(d))).collect();
         let distances = self.distances(&graph, &among)?;
         let mut cost = s.root_cost * s.width * cuts.len() as f64;
         let mut tours = Vec::with_capacity(sketch.tours.len());
@@ -240,11 +232,7 @@ impl RegionView<'_> {
     }
 
     /// The region's graph with the given places on its walls as attachments.
-    fn graph(
-        &self,
-        places: &[(usize, f64)],
-        demands: &[DVec2],
-    ) -> Result<(PathGraph, Vec<Cut>), RouteError> {
+    fn graph(&self, places: &[(usize, f64)], demands: &[DVec2]) -> Result<(PathGraph, Vec<Cut>), RouteError> {
         let s = self.settings;
         let mut cuts: Vec<Cut> = places
             .iter()

@@ -24,7 +24,8 @@ const ROUNDS: usize = 3;
 /// Begins at the place nearest to the middle of all, then alternates between a tour through the places and
 /// moving each place to the point of its wall that is nearest to the line between its neighbours.
 pub(crate) fn meeting_places(walls: &[&ClosedCurve], demands: &[DVec2], options: &TourOptions) -> Vec<f64> {
-    let all: Vec<DVec2> = walls.iter().flat_map(|w| w.points().iter().copied()).chain(demands.iter().copied()).collect();
+    let all: Vec<DVec2> =
+        walls.iter().flat_map(|w| w.points().iter().copied()).chain(demands.iter().copied()).collect();
     let middle = all.iter().sum::<DVec2>() / all.len().max(1) as f64;
     let mut arcs: Vec<f64> = walls.iter().map(|w| w.nearest(middle).s).collect();
     for _ in 0..ROUNDS {

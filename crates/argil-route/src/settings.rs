@@ -9,9 +9,9 @@ use crate::RouteError;
 pub struct RouteSettings {
     /// Bead width w, mm. Everything else scales with it.
     pub width: f64,
-    /// ε_across, mm: an edge this near to the path above counts as coherent with it.
+    /// `ε_across`, mm: an edge this near to the path above counts as coherent with it.
     pub across: f64,
-    /// α_D of section 3.3: factor on the weight of coherent edges. Lower keeps the routing of the layer
+    /// `α_D` of section 3.3: factor on the weight of coherent edges. Lower keeps the routing of the layer
     /// above longer, at the price of length.
     pub coherence: f64,
     /// How much dearer a path is that runs within one bead of a wall: the weight is multiplied by

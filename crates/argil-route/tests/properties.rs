@@ -62,7 +62,8 @@ fn scene() -> impl Strategy<Value = Scene> {
 }
 
 fn routed(scene: &Scene) -> Result<Cycle, argil_route::RouteError> {
-    let walls: Vec<Wall<'_>> = scene.rings.iter().map(|(points, parent)| Wall { points, parent: *parent }).collect();
+    let walls: Vec<Wall<'_>> =
+        scene.rings.iter().map(|(points, parent)| Wall { points, parent: *parent }).collect();
     let input = LayerInput { walls: &walls, demands: &scene.demands, safeguard: &[], above: None };
     Router::new(RouteSettings::default())?.cycle(&input)
 }
@@ -120,7 +121,8 @@ proptest! {
 
 #[test]
 fn one_demand_alone_becomes_a_ring_within_its_slack() {
-    let scene = Scene { rings: vec![], demands: vec![Demand { position: DVec2::ONE, anchors: vec![DVec2::ONE] }] };
+    let scene =
+        Scene { rings: vec![], demands: vec![Demand { position: DVec2::ONE, anchors: vec![DVec2::ONE] }] };
     let cycle = routed(&scene).unwrap();
     assert!(cycle.points.len() >= 3);
     assert!(cycle.points.iter().all(|p| p.distance(DVec2::ONE) <= RouteSettings::default().slack));

@@ -22,7 +22,8 @@ const OUTLINE_TOLERANCE: f64 = 0.002;
 /// Slivers of a thousandth of a millimetre cross themselves once they are rounded; discs of 0.03 mm
 /// (0.02 w) leave room for the simplification on both sides and change 0.04 % of the wall. Where a loop still
 /// touches itself it is opened more; there is no fourth try.
-const ATTEMPTS: [Cleaning; 3] = [
+const ATTEMPTS: [Cleaning; 4] = [
+    Cleaning { opening: 0.01, tolerance: 0.006 },
     Cleaning { opening: 0.02, tolerance: 0.006 },
     Cleaning { opening: 0.04, tolerance: 0.003 },
     Cleaning { opening: 0.08, tolerance: 0.003 },

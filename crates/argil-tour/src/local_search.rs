@@ -101,45 +101,31 @@ impl<'a, M: Metric> LocalSearch<'a, M> {
     /// Adds an edge and removes another, in every promising way, after the first `count` cuts, whose lengths
     /// less those of the edges added so far come to `open`. Does the first exchange that gains.
     fn extend(&mut self, count: usize, open: f64) -> f64 {
+        let Some(&breadth) = BREADTH.get(count - 1) else { return self.close(count, open) };
         let start = self.cuts[0].from;
         let end = self.cuts[count - 1].to;
-        let breadth = BREADTH.get(count - 1).map_or(0, |&breadth| breadth.min(WIDEST));
         let mut branches = [Branch::default(); WIDEST];
         let mut kept = 0;
         let candidates = self.candidates;
         for candidate in candidates.of(end) {
-            let from = candidate.node;
             let rest = open - candidate.distance;
             if rest <= self.least_gain {
                 break;
             }
-            let at = self.tour.position(from);
-            let before = self.tour.before(at);
-            let (next, previous) = (self.tour.at(self.tour.after(at)).node, self.tour.at(before).node);
-            if next == end || previous == end {
-                continue;
-            }
-            for (position, to, forward) in [(at, next, true), (before, previous, false)] {
-                if self.cuts[..count].iter().any(|cut| cut.position as usize == position) {
+            for (cut, length) in self.edges_at(candidate.node) {
+                let opened = rest + length;
+                if opened <= self.least_gain || self.is_taken(count, &cut, end) {
                     continue;
                 }
-                let opened = rest + self.tour.at(position).ahead;
-                if opened <= self.least_gain {
-                    continue;
-                }
-                let cut = Cut { position: position as u32, from, to, forward };
                 // Two edges that are cut in the same direction cannot be closed to one cycle.
-                if to != start && (count > 1 || forward != self.cuts[0].forward) {
-                    let gain = opened - self.distance(start, to);
-                    if gain > self.least_gain {
-                        self.cuts[count] = cut;
-                        if self.exchange(count + 1) {
-                            return gain;
-                        }
+                if cut.to != start && (count > 1 || cut.forward != self.cuts[0].forward) {
+                    let gain = opened - self.distance(start, cut.to);
+                    if gain > self.least_gain && self.exchange(count, cut) {
+                        return gain;
                     }
                 }
                 // Keep the widest open, best first.
-                if kept < breadth || kept > 0 && branches[kept - 1].open < opened {
+                if kept < breadth || branches[kept - 1].open < opened {
                     kept = breadth.min(kept + 1);
                     let mut place = kept - 1;
                     while place > 0 && branches[place - 1].open < opened {
@@ -160,8 +146,57 @@ impl<'a, M: Metric> LocalSearch<'a, M> {
         0.0
     }
 
-    /// Exchanges the first `count` cuts if that leaves one cycle, and queues their ends.
-    fn exchange(&mut self, count: usize) -> bool {
+    /// Like [`extend`](Self::extend), but for the last cut, after which the exchange must close. Two thirds of all
+    /// edges are looked at here, mostly in vain, so that the length is asked first.
+    fn close(&mut self, count: usize, open: f64) -> f64 {
+        let start = self.cuts[0].from;
+        let end = self.cuts[count - 1].to;
+        let candidates = self.candidates;
+        for candidate in candidates.of(end) {
+            let rest = open - candidate.distance;
+            if rest <= self.least_gain {
+                break;
+            }
+            for (cut, length) in self.edges_at(candidate.node) {
+                let gain = rest + length - self.distance(start, cut.to);
+                if gain > self.least_gain
+                    && cut.to != start
+                    && !self.is_taken(count, &cut, end)
+                    && self.exchange(count, cut)
+                {
+                    return gain;
+                }
+            }
+        }
+        0.0
+    }
+
+    /// The edges of the tour at `node`, as cuts from there, and their lengths.
+    #[inline]
+    fn edges_at(&self, node: u32) -> [(Cut, f64); 2] {
+        let at = self.tour.position(node);
+        let before = self.tour.before(at);
+        let (next, previous) = (self.tour.at(self.tour.after(at)).node, self.tour.at(before));
+        [
+            (Cut { position: at as u32, from: node, to: next, forward: true }, self.tour.at(at).ahead),
+            (Cut { position: before as u32, from: node, to: previous.node, forward: false }, previous.ahead),
+        ]
+    }
+
+    /// Whether `cut` is among the first `count` cuts, or its node a neighbour of `end` on the tour already.
+    #[inline]
+    fn is_taken(&self, count: usize, cut: &Cut, end: u32) -> bool {
+        let from = self.tour.position(cut.from);
+        let end = self.tour.position(end);
+        self.cuts[..count].iter().any(|other| other.position == cut.position)
+            || self.tour.after(from) == end
+            || self.tour.after(end) == from
+    }
+
+    /// Exchanges the first `count` cuts and `last` if that leaves one cycle, and queues their ends.
+    fn exchange(&mut self, count: usize, last: Cut) -> bool {
+        self.cuts[count] = last;
+        let count = count + 1;
         let cuts = &self.cuts[..count];
         let Some(pieces) = pieces_joined(cuts, self.tour.len()) else { return false };
         let metric = self.metric;

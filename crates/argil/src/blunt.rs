@@ -15,12 +15,12 @@ const TIP: f64 = 0.04;
 pub(crate) fn blunted(cycle: &Cycle, width: f64) -> Option<Cycle> {
     let n = cycle.points.len();
     let mut out = Cycle { roots: cycle.roots, ..Cycle::default() };
-    let mut place = vec![0; n];
+    let mut place = Vec::with_capacity(n);
     let mut hit = false;
     for k in 0..n {
         let (before, here, after) =
             (cycle.points[(k + n - 1) % n], cycle.points[k], cycle.points[(k + 1) % n]);
-        place[k] = out.points.len();
+        place.push(out.points.len());
         let mut push = |at: DVec2, fixed: bool| {
             out.points.push(at);
             out.fixed.push(fixed);

@@ -70,7 +70,8 @@ fn clear_start(layer: &PlannedLayer, start: f64, from: DVec2, settings: &Setting
         return wanted;
     }
     let nearest = layer.curve.nearest(from).s;
-    let beside = (1..=4).flat_map(|k| [1.0, -1.0].map(|side| start + side * f64::from(k) * 0.02 * settings.width));
+    let beside =
+        (1..=4).flat_map(|k| [1.0, -1.0].map(|side| start + side * f64::from(k) * 0.02 * settings.width));
     std::iter::once(nearest)
         .chain(beside)
         .map(|arc| opened(layer, arc.rem_euclid(layer.curve.length()), settings.grid))

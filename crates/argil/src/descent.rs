@@ -12,6 +12,7 @@ use geo_types::MultiPolygon;
 use crate::blunt::blunted;
 use crate::clearance::SafeguardField;
 use crate::error::LayerFault;
+use crate::foothold::{foothold, hold_start};
 use crate::hold::{Check, Fault};
 use crate::stages::{Route, Smooth, Support};
 use crate::{LayerReport, PlanError, Progress, Settings, StageTimes};
@@ -38,26 +39,30 @@ pub(crate) struct Descent<'a, U, R, E> {
 }
 
 impl<U: Support, R: Route, E: Smooth> Descent<'_, U, R, E> {
-    /// Plans all layers, the top one first; the result is bottom first. Layers above the first wall from the top
+    /// Plans all layers, the top one first; the result is bottom first. `walls` are those of the layers. Layers above the first wall from the top
     /// have nothing to print; below it, every layer has at least something to hold.
     pub(crate) fn run(
         &mut self,
         layers: &[Layer],
+        walls: &[Vec<ClosedCurve>],
         safeguards: &[MultiPolygon<f64>],
         observe: &mut dyn FnMut(Progress),
     ) -> Result<Vec<PlannedLayer>, PlanError> {
         let mut planned: Vec<PlannedLayer> = Vec::with_capacity(layers.len());
-        for (layer, safeguard) in layers.iter().zip(safeguards).rev() {
+        let walls_of = |k: usize| SegmentIndex::of_curves(&walls[k], self.settings.width);
+        let mut start = None;
+        for (k, (layer, safeguard)) in layers.iter().zip(safeguards).enumerate().rev() {
             let above = planned.last().map(|p| &p.curve);
             if above.is_none() && layer.walls.is_empty() {
                 continue;
             }
-            let near = layer.walls.first().map(|w| w.points[0]).or(above.map(|c| c.points()[0]));
-            let done = self.layer(layer, safeguard, above).map_err(|(fault, at)| PlanError::Layer {
-                layer: layer.index,
-                near: at.or(near).unwrap_or_default(),
-                fault,
+            let near = walls[k].first().or(above).map(|curve| curve.points()[0]);
+            let done = self.layer(layer, &walls[k], safeguard, above, start).map_err(|(fault, at)| {
+                PlanError::Layer { layer: layer.index, near: at.or(near).unwrap_or_default(), fault }
             })?;
+            let below = k.checked_sub(1).map(walls_of);
+            let from = above.zip(start);
+            start = below.map(|below| foothold(&done.curve, from, &below, &self.settings.seaming()));
             planned.push(done);
             observe(Progress::Layer { index: layer.index });
         }
@@ -68,41 +73,36 @@ impl<U: Support, R: Route, E: Smooth> Descent<'_, U, R, E> {
     fn layer(
         &mut self,
         layer: &Layer,
+        curves: &[ClosedCurve],
         safeguard: &MultiPolygon<f64>,
         above: Option<&ClosedCurve>,
+        start: Option<DVec2>,
     ) -> Result<PlannedLayer, (LayerFault, Option<DVec2>)> {
         let settings = self.settings;
-        let curves: Vec<ClosedCurve> = layer
-            .walls
-            .iter()
-            .map(|wall| ClosedCurve::new(wall.points.clone()))
-            .collect::<Result<_, _>>()
-            .map_err(|e| (e.into(), None))?;
         let walls: Vec<Wall<'_>> =
             layer.walls.iter().map(|w| Wall { points: &w.points, parent: w.parent }).collect();
-        let wall_index = SegmentIndex::of_curves(&curves, settings.width);
+        let wall_index = SegmentIndex::of_curves(curves, settings.width);
 
         let support = &mut self.support;
-        let supports = timed(&mut self.times.support, || {
+        let mut supports = timed(&mut self.times.support, || {
             above.map_or_else(Vec::new, |above| support.points(above, &wall_index, settings))
         });
+        if let Some(start) = start {
+            hold_start(start, &wall_index, &mut supports, &settings.support());
+        }
         let demands: Vec<Demand> =
             supports.iter().map(|s| Demand { position: s.position, anchors: s.needs.clone() }).collect();
 
         let field = SafeguardField::new(safeguard, 2.0 * settings.width);
         let above_index = above.map(|c| SegmentIndex::of_curves([c], settings.width));
         let rings = field.polylines();
-        let input = LayerInput {
-            walls: &walls,
-            demands: &demands,
-            safeguard: &rings,
-            above: above_index.as_ref(),
-        };
+        let input =
+            LayerInput { walls: &walls, demands: &demands, safeguard: &rings, above: above_index.as_ref() };
         let route = &mut self.route;
         let candidate = timed(&mut self.times.route, || route.cycle(&input, settings))
             .map_err(|fault| (fault.into(), None))?;
 
-        let (mut cycle, pulled_back) = self.smoothed(&candidate, &supports, &field, &curves, above)?;
+        let (mut cycle, pulled_back) = self.smoothed(&candidate, &supports, &field, curves, above)?;
         let check =
             Check { above, criterion: settings.criterion(), width: settings.width, grid: settings.grid };
         timed(&mut self.times.check, || {
@@ -187,6 +187,21 @@ impl<U: Support, R: Route, E: Smooth> Descent<'_, U, R, E> {
         })?;
         Ok((Cycle { points, ..candidate.clone() }, pulled_back))
     }
+}
+
+/// The walls of a layer as curves.
+///
+/// # Errors
+/// The first wall that is none, before any stage sees it.
+pub(crate) fn wall_curves(layer: &Layer) -> Result<Vec<ClosedCurve>, PlanError> {
+    let curve = |wall: &argil_slice::WallLoop| {
+        ClosedCurve::new(wall.points.clone()).map_err(|fault| PlanError::Layer {
+            layer: layer.index,
+            near: wall.points.iter().copied().find(|p| p.is_finite()).unwrap_or_default(),
+            fault: fault.into(),
+        })
+    };
+    layer.walls.iter().map(curve).collect()
 }
 
 /// Points and legs without vertices that rounding has put on top of their neighbour.

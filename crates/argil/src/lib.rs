@@ -28,6 +28,7 @@ mod clearance;
 mod climb;
 mod descent;
 mod error;
+mod foothold;
 mod hold;
 pub mod literal;
 mod plan;

@@ -4,7 +4,7 @@ use argil_mesh::Mesh;
 use argil_slice::{Layer, outer_walls};
 
 use crate::climb::strand;
-use crate::descent::{Descent, timed};
+use crate::descent::{Descent, timed, wall_curves};
 use crate::stages::{
     BestChain, ElasticCurve, Excursions, FewestPoints, PlaneSlices, Route, Safeguard, Seam, Slice,
     SlopedSafeguard, Smooth, Support,
@@ -135,6 +135,7 @@ impl<S: Slice, G: Safeguard, U: Support, R: Route, E: Smooth, C: Seam> Planner<S
         mut times: StageTimes,
         observe: &mut dyn FnMut(Progress),
     ) -> Result<Plan, PlanError> {
+        let walls = layers.iter().map(wall_curves).collect::<Result<Vec<_>, _>>()?;
         let outer: Vec<_> = layers.iter().map(outer_walls).collect();
         let safeguards = timed(&mut times.safeguard, || self.safeguard.regions(&outer, settings));
         let planned = Descent {
@@ -145,7 +146,7 @@ impl<S: Slice, G: Safeguard, U: Support, R: Route, E: Smooth, C: Seam> Planner<S
             times: &mut times,
             checked: self.checked,
         }
-        .run(layers, &safeguards, observe)?;
+        .run(layers, &walls, &safeguards, observe)?;
         observe(Progress::Descended);
         if planned.is_empty() {
             return Err(PlanError::Nothing);

@@ -13,9 +13,9 @@ use crate::PlanError;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Material {
-    /// ε_across / w: how far a bead may lie beside the one below. The paper measured 0.3 for Laguna clay with 33 % water.
+    /// `ε_across` / w: how far a bead may lie beside the one below. The paper measured 0.3 for Laguna clay with 33 % water.
     pub across: f64,
-    /// ε_along / w: the longest bridge along the path. The paper measured 1.6.
+    /// `ε_along` / w: the longest bridge along the path. The paper measured 1.6.
     pub along: f64,
 }
 
@@ -52,18 +52,18 @@ impl Default for Settings {
 /// its tip to its root in one step, so short limits leave domes without a chain; 0.8 is what is measured against.
 const REACH: f64 = 0.79;
 
-/// Radius of the disc about a point that needs support, as a share of ε_across. The strand may pass anywhere in it;
-/// what is left of ε_across becomes a held length along the strand, so that points can lie farther apart.
+/// Radius of the disc about a point that needs support, as a share of `ε_across`. The strand may pass anywhere in it;
+/// what is left of `ε_across` becomes a held length along the strand, so that points can lie farther apart.
 const ENVELOPE: f64 = 0.65;
 
 /// How much of the envelope demands may use up when they are moved before smoothing.
 const SLACK: f64 = 0.9;
 
-/// α_l of Eq. 2. With the paper's 0.9 strands die slowly: 0.7 leaves a quarter to a third less of them (gargoyle 0.55 to 0.45,
+/// `α_l` of Eq. 2. With the paper's 0.9 strands die slowly: 0.7 leaves a quarter to a third less of them (gargoyle 0.55 to 0.45,
 /// thinker 0.31 to 0.24 of the model's length) at the same contact, since the guard and the repulsion keep them off the walls.
 const TENSION: f64 = 0.7;
 
-/// μ_bend of Eq. 3 in w². Less than the elastic stage's own 0.133, which suits the paper's tension: softer tips retract
+/// `μ_bend` of Eq. 3 in w². Less than the elastic stage's own 0.133, which suits the paper's tension: softer tips retract
 /// faster, and another twentieth of the strand is saved.
 const STIFFNESS: f64 = 0.05;
 
@@ -107,7 +107,7 @@ impl Settings {
         Ok(())
     }
 
-    /// ε_across and ε_along in mm: what must hold of the finished path.
+    /// `ε_across` and `ε_along` in mm: what must hold of the finished path.
     #[must_use]
     pub fn criterion(&self) -> Criterion {
         Criterion { across: self.material.across * self.width, along: self.material.along * self.width }

@@ -32,7 +32,8 @@ pub trait Safeguard {
 /// Finds what a layer has to hold.
 pub trait Support {
     /// Points that the layer must pass so that the cycle above is held, beside what its walls hold.
-    fn points(&mut self, above: &ClosedCurve, walls: &SegmentIndex, settings: &Settings) -> Vec<SupportPoint>;
+    fn points(&mut self, above: &ClosedCurve, walls: &SegmentIndex, settings: &Settings)
+    -> Vec<SupportPoint>;
 }
 
 /// Joins walls and demands to one cycle.
@@ -92,7 +93,12 @@ impl Safeguard for SlopedSafeguard {
 pub struct FewestPoints;
 
 impl Support for FewestPoints {
-    fn points(&mut self, above: &ClosedCurve, walls: &SegmentIndex, settings: &Settings) -> Vec<SupportPoint> {
+    fn points(
+        &mut self,
+        above: &ClosedCurve,
+        walls: &SegmentIndex,
+        settings: &Settings,
+    ) -> Vec<SupportPoint> {
         argil_support::place_supports(above, walls, &settings.support())
     }
 }

@@ -1,0 +1,98 @@
+//! A place on every layer where the layer above may begin.
+//!
+//! The strand climbs by short steps, and each layer has to begin where the layer below holds it. Where strand ends on a
+//! wall, or a body begins in mid-air over a thread of support, no such chain need exist by itself. So while the layers
+//! are planned from the top down, one start a layer is chosen in sight of the walls below, and the next layer is
+//! asked to hold it. On walls that stand on walls this costs nothing. The seam stage is free to find a better chain.
+
+use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex};
+use argil_seam::SeamSettings;
+use argil_support::{Placement, SupportPoint};
+
+/// Share of the longest step that is used, so that starts on the seam stage's own spacing reach each other too.
+const STEP: f64 = 0.85;
+
+/// Share of `ε_across` within which a wall must pass, for the same reason.
+const HELD: f64 = 0.65;
+
+/// The start on a planned cycle: within a step of the start above, over the walls below where one is, else as near
+/// to them as can be had, so that the starts make for the walls. `above` is the cycle above with its start; the step
+/// up to it must cross nothing there.
+pub(crate) fn foothold(
+    cycle: &ClosedCurve,
+    above: Option<(&ClosedCurve, DVec2)>,
+    walls_below: &SegmentIndex,
+    seam: &SeamSettings,
+) -> DVec2 {
+    let count = (cycle.length() / seam.spacing).ceil().clamp(4.0, 1e6) as usize;
+    let places = (0..count).map(|k| cycle.point_at(k as f64 * cycle.length() / count as f64));
+    let nearest = above.map(|(_, start)| cycle.nearest(start).point);
+    places
+        .chain(nearest)
+        .filter(|&place| above.is_none_or(|(next, start)| reaches(place, start, next, STEP * seam.reach)))
+        .map(|place| {
+            let hanging = (walls_below.distance(place) - HELD * seam.across).max(0.0);
+            (hanging, above.map_or(0.0, |(_, start)| start.distance(place)), place)
+        })
+        .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)))
+        .map(|(_, _, place)| place)
+        .or(nearest)
+        .unwrap_or(cycle.points()[0])
+}
+
+/// Whether a step up to a cycle is short enough and crosses none of its strands.
+fn reaches(from: DVec2, to: DVec2, cycle: &ClosedCurve, reach: f64) -> bool {
+    let step = Segment::new(from, to);
+    step.length() <= reach && !cycle.segments().any(|strand| strand.crosses(&step))
+}
+
+/// Sees to it that the start above is held: by a wall, by a point that is asked for anyway, or by one more.
+pub(crate) fn hold_start(
+    start: DVec2,
+    walls: &SegmentIndex,
+    supports: &mut Vec<SupportPoint>,
+    placement: &Placement,
+) {
+    let held_by_point = |s: &SupportPoint| s.needs.iter().any(|need| need.distance(start) <= placement.cover);
+    if walls.distance(start) > HELD * placement.across && !supports.iter().any(held_by_point) {
+        supports.push(SupportPoint { position: start, needs: vec![start] });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ring(radius: f64) -> ClosedCurve {
+        let points = (0..48).map(|k| radius * DVec2::from_angle(f64::from(k) * std::f64::consts::TAU / 48.0));
+        ClosedCurve::new(points.collect()).unwrap()
+    }
+
+    #[test]
+    fn starts_make_for_the_wall_below() {
+        let seam = SeamSettings::for_width(1.5);
+        let walls = SegmentIndex::of_curves([&ring(10.0)], 1.5);
+        // A strand that runs out to the wall on the right.
+        let strand = [(4.0, 0.0), (10.0, 0.2), (10.0, -0.2)].map(|(x, y)| DVec2::new(x, y));
+        let strand = ClosedCurve::new(strand.to_vec()).unwrap();
+        let mut start = DVec2::new(4.0, 0.0);
+        for _ in 0..10 {
+            let next = foothold(&strand, Some((&strand, start)), &walls, &seam);
+            assert!(next.distance(start) <= seam.reach);
+            start = next;
+        }
+        assert!(walls.distance(start) <= seam.across, "{start} has reached the wall");
+    }
+
+    #[test]
+    fn a_start_over_nothing_is_asked_for_once() {
+        let placement = Placement::for_width(1.5);
+        let walls = SegmentIndex::of_curves([&ring(10.0)], 1.5);
+        let mut supports = Vec::new();
+        hold_start(DVec2::new(10.1, 0.0), &walls, &mut supports, &placement);
+        assert!(supports.is_empty(), "the wall holds it");
+        hold_start(DVec2::ZERO, &walls, &mut supports, &placement);
+        hold_start(DVec2::new(0.1, 0.0), &walls, &mut supports, &placement);
+        assert_eq!(supports.len(), 1);
+    }
+}
