@@ -1,4 +1,5 @@
 //! What holds of every cycle, whatever the walls and demands.
+#![allow(clippy::unwrap_used, reason = "what cannot be set up fails the test")]
 
 use argil_curve::{ClosedCurve, DVec2, self_crossings};
 use argil_route::{Cycle, Demand, LayerInput, Leg, RouteSettings, Router, Wall};

@@ -1,4 +1,5 @@
 //! The paper's routing: whole, if not sound.
+#![allow(clippy::unwrap_used, reason = "what cannot be set up fails the test")]
 
 use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex, self_crossings};
 use argil_route::{Cycle, Demand, LayerInput, Leg, RouteError, RouteSettings, Router, SplicedRouter, Wall};
