@@ -1,7 +1,7 @@
 //! The plan of one region: its attachments, its tours, and the graph that they are drawn on.
 
 use argil_curve::{ClosedCurve, DVec2, SegmentIndex};
-use argil_graph::{DistanceMatrix, FreeSpace, Nodes, PathGraph};
+use argil_graph::{DistanceMatrix, FreeSpace, Nodes, PathFinder, PathGraph};
 use argil_tour::{Metric, shortest_tour};
 
 use crate::attachment::{Attachments, attach};
@@ -338,11 +338,12 @@ impl RegionView<'_> {
 impl RegionPlan {
     /// Calls `visit` with the graph path of every hop of a tour.
     pub(crate) fn walk(&self, tour: &Tour, mut visit: impl FnMut(&[u32])) -> Result<(), RouteError> {
+        let mut finder = PathFinder::new(&self.graph);
         let n = tour.stops.len();
         for k in 0..if n > 1 { n } else { 0 } {
             let (from, to) = (tour.stops[k], tour.stops[(k + 1) % n]);
             if from != to {
-                let path = self.graph.path(from, to);
+                let path = finder.path(from, to);
                 visit(&path.ok_or_else(|| RouteError::Unreachable { at: self.graph.position(to) })?);
             }
         }

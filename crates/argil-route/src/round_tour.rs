@@ -28,10 +28,12 @@ pub(crate) fn meeting_places(walls: &[&ClosedCurve], demands: &[DVec2], options:
         walls.iter().flat_map(|w| w.points().iter().copied()).chain(demands.iter().copied()).collect();
     let middle = all.iter().sum::<DVec2>() / all.len().max(1) as f64;
     let mut arcs: Vec<f64> = walls.iter().map(|w| w.nearest(middle).s).collect();
+    // The order is a guess along straight lines; the search for the last per cent is for the tour that is walked.
+    let rough = TourOptions { kicks_per_node: 0.0, ..*options };
     for _ in 0..ROUNDS {
         let mut places: Vec<DVec2> = walls.iter().zip(&arcs).map(|(w, &s)| w.point_at(s)).collect();
         places.extend(demands);
-        let order = shortest_tour(&Straight(&places), &[], None, options).order;
+        let order = shortest_tour(&Straight(&places), &[], None, &rough).order;
         let n = order.len();
         if n < 3 {
             break;

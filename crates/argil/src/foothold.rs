@@ -42,8 +42,10 @@ pub(crate) fn foothold(
 
 /// Whether a step up to a cycle is short enough and crosses none of its strands.
 fn reaches(from: DVec2, to: DVec2, cycle: &ClosedCurve, reach: f64) -> bool {
-    let step = Segment::new(from, to);
-    step.length() <= reach && !cycle.segments().any(|strand| strand.crosses(&step))
+    // The step ends on a strand of the cycle: it is tested without its last thousandth, or rounding would make it cross
+    // the very strand that it ends on.
+    let step = Segment::new(from, to.lerp(from, 1e-3));
+    from.distance(to) <= reach && !cycle.segments().any(|strand| strand.crosses(&step))
 }
 
 /// Sees to it that the start above is held: by a wall, by a point that is asked for anyway, or by one more.
@@ -72,12 +74,15 @@ mod tests {
     fn starts_make_for_the_wall_below() {
         let seam = SeamSettings::for_width(1.5);
         let walls = SegmentIndex::of_curves([&ring(10.0)], 1.5);
-        // A strand that runs out to the wall on the right.
-        let strand = [(4.0, 0.0), (10.0, 0.2), (10.0, -0.2)].map(|(x, y)| DVec2::new(x, y));
-        let strand = ClosedCurve::new(strand.to_vec()).unwrap();
+        // A strand that runs out to the wall on the right, now a little higher, now a little lower.
+        let strand = |layer: i32| {
+            let lift = 0.07 * f64::from(layer % 2);
+            let points = [(4.0, lift), (10.0, 0.2 + lift), (10.0, lift - 0.2)];
+            ClosedCurve::new(points.map(|(x, y)| DVec2::new(x, y)).to_vec()).unwrap()
+        };
         let mut start = DVec2::new(4.0, 0.0);
-        for _ in 0..10 {
-            let next = foothold(&strand, Some((&strand, start)), &walls, &seam);
+        for layer in 1..10 {
+            let next = foothold(&strand(layer), Some((&strand(layer - 1), start)), &walls, &seam);
             assert!(next.distance(start) <= seam.reach);
             start = next;
         }
