@@ -242,11 +242,13 @@ fn a_hole_that_closes() {
 
 #[test]
 fn walls_side_by_side() {
-    for walls in [2, 3] {
-        let (mesh, settings) = (sample("columns"), Settings { walls, ..Settings::default() });
-        let plan = Planner::default().plan(&mesh, &settings).unwrap_or_else(|e| panic!("{walls} walls: {e}"));
+    for (name, walls) in [("columns", 2), ("table", 3), ("spire", 2)] {
+        let (mesh, settings) = (sample(name), Settings { walls, ..Settings::default() });
+        let plan = Planner::default()
+            .plan(&mesh, &settings)
+            .unwrap_or_else(|e| panic!("{name}, {walls} walls: {e}"));
         let report = audited(&plan, &mesh, &settings);
-        assert!(report.is_sound(), "{walls} walls fall short\n{report}");
+        assert!(report.is_sound(), "{name}, {walls} walls fall short\n{report}");
     }
 }
 
