@@ -1,10 +1,13 @@
 //! `argil plan`.
 
+use std::panic::resume_unwind;
 use std::process::ExitCode;
+use std::thread;
 
 use argil::gcode::{GcodeSettings, write_gcode};
 use argil::mesh::Mesh;
 use argil::{Plan, PlanError, Planner, Settings, literal};
+use argil_audit::Report;
 use argil_preview::{SvgStyle, ViewStyle, layer_svg, overview_svg, png};
 
 use crate::args::PlanArgs;
@@ -28,14 +31,8 @@ pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
 
     let gcode = write_gcode(&plan.strand, &gcode_settings(args, &settings))
         .map_err(|source| Failure::Output { what: "g-code", source: Box::new(source) })?;
-    let audit = if args.no_audit {
-        None
-    } else {
-        let report = measure(&gcode, &mesh, &settings);
-        Some(report.map_err(|source| Failure::Output { what: "audit", source: Box::new(source) })?)
-    };
+    let audit = audited_and_drawn(args, &plan, &gcode, &mesh, &settings)?;
     output::write(&args.output, gcode.as_bytes())?;
-    pictures(args, &plan)?;
     if let Some(path) = &args.strand {
         output::write(path, &json(&plan.strand)?)?;
     }
@@ -83,6 +80,28 @@ fn gcode_settings(args: &PlanArgs, settings: &Settings) -> GcodeSettings {
         header: header.into_iter().map(|(key, value)| (key.to_owned(), value)).collect(),
         ..GcodeSettings::default()
     }
+}
+
+/// The audit and the pictures; side by side where there is a thread for each.
+fn audited_and_drawn(
+    args: &PlanArgs,
+    plan: &Plan,
+    gcode: &str,
+    mesh: &Mesh,
+    settings: &Settings,
+) -> Result<Option<Report>, Failure> {
+    let audit = || (!args.no_audit).then(|| measure(gcode, mesh, settings)).transpose();
+    let (report, drawn) = if args.threads > 1 {
+        thread::scope(|scope| {
+            let measured = scope.spawn(audit);
+            let drawn = pictures(args, plan);
+            (measured.join().unwrap_or_else(|panic| resume_unwind(panic)), drawn)
+        })
+    } else {
+        (audit(), pictures(args, plan))
+    };
+    drawn?;
+    report.map_err(|source| Failure::Output { what: "audit", source: Box::new(source) })
 }
 
 fn pictures(args: &PlanArgs, plan: &Plan) -> Result<(), Failure> {
