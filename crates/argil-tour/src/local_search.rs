@@ -26,7 +26,8 @@ pub(crate) struct LocalSearch<'a, M> {
     pub(crate) candidates: &'a CandidateLists,
     pub(crate) tour: &'a mut ArrayTour,
     pub(crate) queue: &'a mut WorkQueue,
-    /// Gains up to this may be rounding, and would go round in circles.
+    /// Gains up to this may be rounding, and would go round in circles. Not negative, so that every exchange is a
+    /// gain and the descent ends.
     pub(crate) least_gain: f64,
     /// The edges that the exchange in question removes; how many, the search knows.
     cuts: [Cut; MOST_CUTS],
@@ -46,7 +47,8 @@ impl<'a, M: Metric> LocalSearch<'a, M> {
         tour: &'a mut ArrayTour,
         queue: &'a mut WorkQueue,
     ) -> Self {
-        let length: f64 = tour.stops().iter().map(|stop| stop.ahead).filter(|ahead| ahead.is_finite()).sum();
+        let edges = tour.stops().iter().map(|stop| stop.ahead.abs());
+        let length: f64 = edges.filter(|edge| edge.is_finite()).sum();
         // A sum of eight edges is off by some 1e-15 of the tour at most.
         Self {
             metric,

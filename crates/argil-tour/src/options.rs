@@ -21,6 +21,6 @@ pub struct TourOptions {
 
 impl Default for TourOptions {
     fn default() -> Self {
-        Self { exact_up_to: 12, neighbours: 5, kicks_per_node: 1.0, seed: 0 }
+        Self { exact_up_to: 12, neighbours: 5, kicks_per_node: 1.5, seed: 0 }
     }
 }

@@ -120,6 +120,34 @@ fn the_layer_below_starts_from_the_tour_above() {
     assert!(kept >= 120, "only {kept} of 150 edges are kept");
 }
 
+/// What distances may not be: some are less than nothing. Entry `a * n + b` is that between `a` and `b` > `a`.
+struct Debts {
+    nodes: usize,
+    entries: Vec<f64>,
+}
+
+impl Metric for Debts {
+    fn nodes(&self) -> usize {
+        self.nodes
+    }
+
+    fn distance(&self, a: usize, b: usize) -> f64 {
+        self.entries[a.min(b) * self.nodes + a.max(b)]
+    }
+}
+
+#[test]
+fn distances_below_zero_do_not_keep_the_search_going() {
+    // The tour as a whole is less than nothing, so that a loss may look like a gain above rounding.
+    let options = TourOptions { exact_up_to: 0, ..TourOptions::default() };
+    for seed in 0..40 {
+        let mut next = noise(seed);
+        let entries = (0..14 * 14).map(|_| if next() < 0.3 { -1e300 } else { 1e300 * next() }).collect();
+        let tour = shortest_tour(&Debts { nodes: 14, entries }, &[], None, &options);
+        assert_eq!(tour.order.len(), 14);
+    }
+}
+
 #[test]
 fn a_matrix_that_is_no_metric_is_refused() {
     assert_eq!(MatrixMetric::new(3, &[0.0; 8]).unwrap_err(), TourError::NotSquare { nodes: 3, entries: 8 });
