@@ -17,6 +17,10 @@ const BESIDE_ROOT: f64 = 1.0;
 /// How near to a root that is, in w.
 const ROOT_REACH: f64 = 0.8;
 
+/// A start gives way along its cycle in shifts of this, in w, so many times at most.
+const SHIFT: f64 = 0.02;
+const SHIFTS: i32 = 60;
+
 /// Joins the cycles by a chain of starts.
 pub(crate) fn strand(
     layers: &[PlannedLayer],
@@ -34,20 +38,24 @@ pub(crate) fn strand(
         let beside = roots[k].iter().any(|root| root.distance(p) < ROOT_REACH * width);
         (VISIBLE + if beside { BESIDE_ROOT } else { 0.0 }) * width * width
     };
-    let starts = seam.starts(&cycles, settings, &cost)?;
+    let starts = match seam.starts(&cycles, settings, &cost) {
+        Ok(starts) => starts,
+        // The chain that the descent has kept open on the way down.
+        Err(error) => footholds(layers, settings).ok_or(error)?,
+    };
     let mut strand_layers = Vec::with_capacity(layers.len());
     let mut first: Option<DVec2> = None;
     let mut below = None;
     for (layer, &start) in layers.iter().zip(&starts) {
         let (begin, mut moves) = match below {
             None => opened(layer, start, settings.grid),
-            Some(from) => clear_start(layer, start, from, settings),
+            Some((from, below)) => clear_start(layer, start, from, below, settings),
         };
         match first {
             None => first = Some(begin),
             Some(_) => moves.insert(0, Move { to: begin, role: Role::Seam }),
         }
-        below = Some(begin);
+        below = Some((begin, &layer.curve));
         let supports =
             layer.supports.iter().map(|s| SupportSource { at: s.position, needs: s.needs.clone() }).collect();
         strand_layers.push(StrandLayer {
@@ -62,20 +70,40 @@ pub(crate) fn strand(
     Ok(Strand::new(first.unwrap_or_default(), strand_layers)?)
 }
 
-/// The cycle opened at `start`, or near it where the step from `from` would cross the cycle after rounding: a step that
-/// runs along the very strand that it ends on may do so by one step of the grid.
-fn clear_start(layer: &PlannedLayer, start: f64, from: DVec2, settings: &Settings) -> (DVec2, Vec<Move>) {
+/// The chain of footholds, if each is held and within a step of the one below.
+fn footholds(layers: &[PlannedLayer], settings: &Settings) -> Option<Vec<f64>> {
+    let seam = settings.seaming();
+    let climbs = layers.windows(2).all(|pair| {
+        let (from, to) = (&pair[0], pair[1].foothold);
+        from.foothold.distance(to) <= seam.reach && from.curve.nearest(to).distance <= seam.across
+    });
+    climbs.then(|| layers.iter().map(|layer| layer.curve.nearest(layer.foothold).s).collect())
+}
+
+/// The cycle opened at `start`, or at the nearest place along it to which the step from the layer below is clear, held
+/// and short enough: a step that runs along the very strand that it ends on may cross it by one step of the grid after
+/// rounding, and a start that had to give way on the layer below is made up for here.
+fn clear_start(
+    layer: &PlannedLayer,
+    start: f64,
+    from: DVec2,
+    below: &ClosedCurve,
+    settings: &Settings,
+) -> (DVec2, Vec<Move>) {
+    let seam = settings.seaming();
+    let sound = |opened: &(DVec2, Vec<Move>)| {
+        from.distance(opened.0) <= seam.reach
+            && below.nearest(opened.0).distance <= seam.across
+            && is_clear(from, opened)
+    };
     let wanted = opened(layer, start, settings.grid);
-    if is_clear(from, &wanted) {
+    if sound(&wanted) {
         return wanted;
     }
-    let nearest = layer.curve.nearest(from).s;
-    let beside =
-        (1..=4).flat_map(|k| [1.0, -1.0].map(|side| start + side * f64::from(k) * 0.02 * settings.width));
-    std::iter::once(nearest)
-        .chain(beside)
+    (1..=SHIFTS)
+        .flat_map(|k| [1.0, -1.0].map(|side| start + side * f64::from(k) * SHIFT * settings.width))
         .map(|arc| opened(layer, arc.rem_euclid(layer.curve.length()), settings.grid))
-        .find(|opened| is_clear(from, opened))
+        .find(sound)
         .unwrap_or(wanted)
 }
 

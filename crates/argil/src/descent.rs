@@ -12,7 +12,7 @@ use geo_types::MultiPolygon;
 use crate::blunt::blunted;
 use crate::clearance::SafeguardField;
 use crate::error::LayerFault;
-use crate::foothold::{foothold, hold_start};
+use crate::foothold::{Foothold, foothold, hold_start};
 use crate::hold::{Check, Fault};
 use crate::stages::{Route, Smooth, Support};
 use crate::{LayerReport, PlanError, Progress, Settings, StageTimes};
@@ -25,6 +25,8 @@ pub(crate) struct PlannedLayer {
     pub(crate) curve: ClosedCurve,
     pub(crate) legs: Vec<Leg>,
     pub(crate) supports: Vec<SupportPoint>,
+    /// A place where the layer may begin.
+    pub(crate) foothold: DVec2,
 }
 
 /// The stages that a descent uses, and what it has learnt so far.
@@ -60,10 +62,11 @@ impl<U: Support, R: Route, E: Smooth> Descent<'_, U, R, E> {
             let done = self.layer(layer, &walls[k], safeguard, above, start).map_err(|(fault, at)| {
                 PlanError::Layer { layer: layer.index, near: at.or(near).unwrap_or_default(), fault }
             })?;
-            let below = k.checked_sub(1).map(walls_of);
-            let from = above.zip(start);
-            start = below.map(|below| foothold(&done.curve, from, &below, &self.settings.seaming()));
-            planned.push(done);
+            let below = k.checked_sub(1).map_or_else(|| SegmentIndex::new(Vec::new(), 1.0), walls_of);
+            let from = above.zip(start.map(|s: Foothold| s.at));
+            let place = foothold(&done.curve, from, &below, &self.settings.seaming());
+            start = Some(place);
+            planned.push(PlannedLayer { foothold: place.at, ..done });
             observe(Progress::Layer { index: layer.index });
         }
         planned.reverse();
@@ -76,7 +79,7 @@ impl<U: Support, R: Route, E: Smooth> Descent<'_, U, R, E> {
         curves: &[ClosedCurve],
         safeguard: &MultiPolygon<f64>,
         above: Option<&ClosedCurve>,
-        start: Option<DVec2>,
+        start: Option<Foothold>,
     ) -> Result<PlannedLayer, (LayerFault, Option<DVec2>)> {
         let settings = self.settings;
         let walls: Vec<Wall<'_>> =
@@ -88,7 +91,7 @@ impl<U: Support, R: Route, E: Smooth> Descent<'_, U, R, E> {
             above.map_or_else(Vec::new, |above| support.points(above, &wall_index, settings))
         });
         if let Some(start) = start {
-            hold_start(start, &wall_index, &mut supports, &settings.support());
+            hold_start(start, &mut supports, &settings.support());
         }
         let demands: Vec<Demand> =
             supports.iter().map(|s| Demand { position: s.position, anchors: s.needs.clone() }).collect();
@@ -129,7 +132,8 @@ impl<U: Support, R: Route, E: Smooth> Descent<'_, U, R, E> {
         };
         let (points, legs) = without_repeats(&cycle);
         let curve = ClosedCurve::new(points).map_err(|e| (e.into(), None))?;
-        Ok(PlannedLayer { report, z: layer.print_z, curve, legs, supports })
+        let foothold = curve.points()[0];
+        Ok(PlannedLayer { report, z: layer.print_z, curve, legs, supports, foothold })
     }
 
     /// The smoothed candidate, repaired until it holds the cycle above, and how many vertices that pulled back.

@@ -7,7 +7,7 @@ use argil_curve::{ClosedCurve, DVec2, SegmentIndex};
 use argil_elastic::{ElasticError, ElasticSolver, Path};
 use argil_mesh::Mesh;
 use argil_route::{Cycle, LayerInput, RouteError, Router};
-use argil_seam::SeamError;
+use argil_seam::{SeamError, SeamSettings};
 use argil_slice::{Layer, SliceError};
 use argil_support::SupportPoint;
 use geo_types::MultiPolygon;
@@ -136,6 +136,9 @@ impl Seam for BestChain {
         settings: &Settings,
         cost: &dyn Fn(usize, DVec2) -> f64,
     ) -> Result<Vec<f64>, SeamError> {
-        argil_seam::seam_chain(cycles, &settings.seaming(), cost)
+        // Where strand dies on a wall the one way up may be narrow: a chain that is not found is looked for more finely.
+        let usual = settings.seaming();
+        let fine = SeamSettings { spacing: usual.spacing / 4.0, ..usual };
+        argil_seam::seam_chain(cycles, &usual, cost).or_else(|_| argil_seam::seam_chain(cycles, &fine, cost))
     }
 }
