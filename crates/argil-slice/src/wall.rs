@@ -4,7 +4,7 @@ use crate::layer::{Loss, WallLoop};
 use crate::region::{self, perimeter, polygon_through, ring_points, signed_area};
 use crate::simplification::{distance_to_side, rounded, simplified};
 use crate::soundness::unsound;
-use geo::{Area, BooleanOps, Centroid, InteriorPoint};
+use geo::{Area, BooleanOps, Centroid, InteriorPoint, Intersects};
 use geo_types::{MultiPolygon, Polygon};
 use glam::DVec2;
 
@@ -69,6 +69,9 @@ pub(crate) fn walls(
             let distance = (wall as f64 + 0.5) * settings.width;
             let before = pieces.len();
             pieces.extend(Source { polygon, distance, wall, thin: false }.pieces(ATTEMPTS[0], settings));
+            if wall > 0 {
+                losses.extend(slight_parts(layer, polygon, distance, &pieces[before..], settings));
+            }
             if pieces.len() == before {
                 break;
             }
@@ -149,6 +152,20 @@ impl Piece<'_> {
             WallLoop { points, parent: None, depth: 0, wall, hole, thin }
         })
     }
+}
+
+/// The parts of a further wall's inset that are too slight for a loop that stays apart from itself, and so are in
+/// none of its pieces.
+fn slight_parts(
+    layer: usize,
+    polygon: &Polygon<f64>,
+    distance: f64,
+    pieces: &[Piece<'_>],
+    settings: &SliceSettings,
+) -> Vec<Loss> {
+    let parts = region::inset(polygon, distance, CHORD * settings.width);
+    let lost = parts.iter().filter(|part| !pieces.iter().any(|piece| piece.region.intersects(*part)));
+    lost.map(|part| Loss::Branch { layer, at: inner_point(part), area: part.unsigned_area() }).collect()
 }
 
 /// The pieces of the largest inset, among a few, that leaves something worth printing.
