@@ -59,12 +59,12 @@ const ENVELOPE: f64 = 0.65;
 /// How much of the envelope demands may use up when they are moved before smoothing.
 const SLACK: f64 = 0.9;
 
-/// `α_l` of Eq. 2. With the paper's 0.9 strands die slowly: 0.7 leaves a quarter to a third less of them (gargoyle 0.55 to 0.45,
-/// thinker 0.31 to 0.24 of the model's length) at the same contact, since the guard and the repulsion keep them off the walls.
+/// `α_l` of Eq. 2. With the paper's 0.9 strands die slowly: 0.7 left an eighth to a fifth less of them (gargoyle 0.55 to
+/// 0.48, thinker 0.31 to 0.24 of the model's length). What that alone does to contact with the walls was not measured.
 const TENSION: f64 = 0.7;
 
 /// `μ_bend` of Eq. 3 in w². Less than the elastic stage's own 0.133, which suits the paper's tension: softer tips retract
-/// faster, and another twentieth of the strand is saved.
+/// faster. It saved a twentieth to a tenth on two models of three and cost as much on the third.
 const STIFFNESS: f64 = 0.05;
 
 impl Settings {
