@@ -145,8 +145,10 @@ fn run() -> Result<(), Box<dyn Error>> {
         let text = fs::read_to_string(path).map_err(|error| format!("{path}: {error}"))?;
         Instance::from_json(&text).map_err(|error| format!("{path}: {error}").into())
     };
-    let layer = read(&arguments.layer)?;
+    let mut layer = read(&arguments.layer)?;
     let graph = layer.graph()?;
+    let named = layer.terminals.clone();
+    graph.arrange(&mut layer.terminals);
     let among = &layer.terminals;
     let mut found = Map::new();
     found.insert("name".into(), json!(layer.name));
@@ -155,16 +157,16 @@ fn run() -> Result<(), Box<dyn Error>> {
 
     let rounds = arguments.rounds;
     let mut order_ms = f64::INFINITY;
+    let mut again = named.clone();
     let (both_ms, matrix) = timed(rounds, || {
         // A graph keeps its order, so that every round has a graph of its own; copying it is not timed.
         let fresh = graph.clone();
         let start = Instant::now();
-        black_box(fresh.distances(&[]));
+        fresh.arrange(&mut again);
         let ordered = start.elapsed().as_secs_f64() * 1e3;
         order_ms = order_ms.min(ordered);
         fresh.distances(among)
     });
-    graph.distances(&[]);
     let (distances_ms, _) = timed(rounds, || graph.distances(among));
     let matrix = matrix.ok_or("no round was run")?;
     let sum: f64 = (0..among.len()).map(|k| matrix.row(k).iter().sum::<f64>()).sum();

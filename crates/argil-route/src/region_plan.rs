@@ -74,19 +74,27 @@ struct Sketch {
     tours: Vec<Vec<Stop>>,
 }
 
-/// Distances among the stops of one tour.
-struct Among<'a> {
-    distances: &'a DistanceMatrix,
-    stops: &'a [usize],
+/// Distances among the stops of one tour, row by row.
+struct Among {
+    count: usize,
+    lengths: Vec<f64>,
 }
 
-impl Metric for Among<'_> {
+impl Among {
+    fn new(distances: &DistanceMatrix, stops: &[usize]) -> Self {
+        let lengths = stops.iter().flat_map(|&a| stops.iter().map(move |&b| distances.get(a, b))).collect();
+        Self { count: stops.len(), lengths }
+    }
+}
+
+impl Metric for Among {
     fn nodes(&self) -> usize {
-        self.stops.len()
+        self.count
     }
 
+    #[inline]
     fn distance(&self, a: usize, b: usize) -> f64 {
-        self.distances.get(self.stops[a], self.stops[b])
+        self.lengths[a * self.count + b]
     }
 }
 
@@ -221,7 +229,7 @@ impl RegionView<'_> {
                     Stop::Demand(demand) => cuts.len() + demand,
                 })
                 .collect();
-            let tour = shortest_tour(&Among { distances: &distances, stops: &stops }, &[], None, &s.tour);
+            let tour = shortest_tour(&Among::new(&distances, &stops), &[], None, &s.tour);
             cost += tour.length;
             tours.push(Tour {
                 stops: tour.order.iter().map(|&k| among[stops[k]]).collect(),
@@ -271,7 +279,7 @@ impl RegionView<'_> {
         let s = self.settings;
         let mut weight = a.distance(b);
         if let Some(above) = self.above
-            && [a, b, a.midpoint(b)].iter().all(|&p| above.nearest_within(p, s.across).is_some())
+            && [a, b, a.midpoint(b)].iter().all(|&p| above.is_within(p, s.across))
         {
             weight *= s.coherence;
         }
