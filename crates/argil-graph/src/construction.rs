@@ -64,7 +64,7 @@ impl PathGraph {
     pub fn build(
         space: &FreeSpace<'_>,
         nodes: &Nodes<'_>,
-        weight: impl FnMut(DVec2, DVec2) -> f64,
+        weight: impl Fn(DVec2, DVec2) -> f64 + Sync,
     ) -> Result<PathGraph, GraphError> {
         if !nodes.spacing.is_finite() || nodes.spacing < 0.0 {
             return Err(GraphError::Spacing { spacing: nodes.spacing });
