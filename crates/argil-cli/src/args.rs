@@ -105,8 +105,7 @@ pub(crate) struct PlanArgs {
     /// Do not measure the finished g-code.
     #[arg(long)]
     pub(crate) no_audit: bool,
-    /// How many threads to use: the audit runs beside the drawing of pictures; planning uses one so far. The result is
-    /// the same for any number.
+    /// How many threads to use. The result is the same for any number.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) threads: u16,
 }
