@@ -166,11 +166,17 @@ fn check(layer: &Layer, settings: &SliceSettings) -> Result<(), TestCaseError> {
         let reach = (wall.wall as f64 + 0.5) * settings.width;
         for p in &wall.points {
             let at = Point::new(p.x, p.y);
-            prop_assert!(layer.outline.contains(&at), "a wall outside its outline");
+            prop_assert!(
+                layer.outline.contains(&at),
+                "{p} outside its outline: {wall:?} {:?}",
+                layer.outline
+            );
             let rings = layer.outline.iter().flat_map(|p| std::iter::once(p.exterior()).chain(p.interiors()));
             let depth = rings.map(|ring| Euclidean.distance(&at, ring)).fold(f64::MAX, f64::min);
             if !wall.thin {
-                prop_assert!((depth - reach).abs() < 0.03 * settings.width, "wall {} at {depth}", wall.wall);
+                // The first wall has tips in its corners.
+                let slack = if wall.wall == 0 { 0.07 } else { 0.03 } * settings.width;
+                prop_assert!((depth - reach).abs() < slack, "wall {} at {depth}", wall.wall);
             }
         }
     }
@@ -331,13 +337,16 @@ fn a_plate_thinner_than_a_bead_is_printed_and_reported() {
 }
 
 #[test]
-fn a_fin_thinner_than_a_bead_on_a_thick_body_is_reported() {
+fn a_fin_thinner_than_a_bead_on_a_thick_body_is_followed_there_and_back() {
     let body =
         Body::cuboid([0.0, 0.0, 0.0], [10.0, 10.0, 2.0]).and(Body::cuboid([9.0, 4.0, 0.0], [16.0, 5.0, 2.0]));
     let layer = &slice(&body.mesh(), &SliceSettings::default()).unwrap()[0];
-    assert_eq!(layer.walls.len(), 1);
+    let [wall] = &layer.walls[..] else { panic!("one loop") };
+    let end = wall.points.iter().map(|p| p.x).fold(0.0, f64::max);
+    assert!(wall.thin && (15.2..15.6).contains(&end), "the spine ends at {end}");
+    assert!(wall.points.iter().filter(|p| p.x > 10.0).all(|p| (p.y - 4.5).abs() < 0.05), "{:?}", wall.points);
     assert!(
-        matches!(layer.losses[..], [Loss::Branch { area, at, .. }] if (4.0..7.0).contains(&area) && at.x > 10.0)
+        matches!(layer.losses[..], [Loss::Narrow { length, at, .. }] if (5.5..7.0).contains(&length) && at.x > 10.0)
     );
 }
 
