@@ -1,7 +1,7 @@
 //! Walls that follow what is thinner than a bead.
 
 use crate::containment::contains;
-use crate::region::{dilation, inset, ring_points, rings, swept};
+use crate::region::{ring_points, rings, swept};
 use crate::spine::sides;
 use argil_curve::SegmentIndex;
 use geo::{Area, BooleanOps};
@@ -12,9 +12,6 @@ use glam::DVec2;
 /// little that both print one bead.
 const HALF_LANE: f64 = 0.02;
 
-/// Notches narrower than twice this, in w, are filled: where a spine leaves a wall there are some without depth.
-const CLOSING: f64 = 0.03;
-
 /// Holes smaller than this, in w², are gaps between a spine and its wall.
 const LEAST_HOLE: f64 = 0.01;
 
@@ -22,16 +19,9 @@ const LEAST_HOLE: f64 = 0.01;
 ///
 /// A spine that closes round a hole gives two loops side by side. Where nothing but the spine lies between them, the
 /// inner one is left out, and the spine is printed once.
-pub(crate) fn with_spines(
-    walls: &MultiPolygon<f64>,
-    spines: &[Vec<DVec2>],
-    width: f64,
-    chord: f64,
-) -> MultiPolygon<f64> {
-    let joined = walls.union(&swept(spines, HALF_LANE * width));
-    let closing = CLOSING * width;
-    let mut closed = inset(&dilation(&joined, closing, 0.1 * chord), closing, 0.1 * chord);
-    for polygon in &mut closed {
+pub(crate) fn with_spines(walls: &MultiPolygon<f64>, spines: &[Vec<DVec2>], width: f64) -> MultiPolygon<f64> {
+    let mut joined = walls.union(&swept(spines, HALF_LANE * width));
+    for polygon in &mut joined {
         let outer = SegmentIndex::new(sides(&ring_points(polygon.exterior())).collect(), width);
         let near = 3.0 * HALF_LANE * width;
         let stays = |hole: &LineString<f64>| {
@@ -42,7 +32,7 @@ pub(crate) fn with_spines(
         let holes = polygon.interiors().iter().filter(|hole| stays(hole)).cloned().collect();
         *polygon = Polygon::new(polygon.exterior().clone(), holes);
     }
-    closed
+    joined
 }
 
 /// Whether the region has one of the spines in it.

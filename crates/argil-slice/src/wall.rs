@@ -102,7 +102,7 @@ impl<'a> FirstWall<'a> {
             spines = spine::spines(&outline, &index, width);
         }
         if !spines.is_empty() {
-            let joined = with_spines(&walled, &spines, width, CHORD * width);
+            let joined = with_spines(&walled, &spines, width);
             let piece = |region: Polygon<f64>| {
                 let thin = has_spine(&region, &spines);
                 Source { thin, ..source }.piece(region, ATTEMPTS[0], settings)
