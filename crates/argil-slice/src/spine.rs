@@ -30,7 +30,7 @@ const GAP: f64 = 0.3;
 /// How far a spine runs on inside the wall, in w, so that the two are one region.
 const OVERLAP: f64 = 0.06;
 
-/// Rounds of averaging over neighbours, which takes out the zigzag of the chords.
+/// Rounds of smoothing.
 const SMOOTHING: usize = 10;
 
 /// The boundary of an outline in short steps.
@@ -342,22 +342,29 @@ impl Pruning {
         (piece_of, lengths, floats)
     }
 
+    /// Takes out the zigzag of the chords: steps towards the neighbours' middle and, a little longer, away from it
+    /// in turn, so that bends stay where they are (Taubin 1995, <https://doi.org/10.1145/218380.218473>).
     fn smooth(&mut self) {
-        for _ in 0..SMOOTHING {
-            let averaged: Vec<DVec2> = (0..self.axis.nodes.len())
-                .map(|node| {
-                    let here = self.axis.nodes[node].at;
-                    let around: Vec<usize> = self.neighbours(node).collect();
-                    match around[..] {
-                        [a, b] if self.kept[node] && !self.anchored[node] => {
-                            0.5 * here + 0.25 * (self.axis.nodes[a].at + self.axis.nodes[b].at)
-                        }
-                        _ => here,
-                    }
-                })
-                .collect();
-            for (node, at) in self.axis.nodes.iter_mut().zip(averaged) {
-                node.at = at;
+        let inner: Vec<(usize, [usize; 2])> = (0..self.axis.nodes.len())
+            .filter(|&node| self.kept[node] && !self.anchored[node])
+            .filter_map(|node| {
+                let mut around = self.neighbours(node);
+                match (around.next(), around.next(), around.next()) {
+                    (Some(a), Some(b), None) => Some((node, [a, b])),
+                    _ => None,
+                }
+            })
+            .collect();
+        let mut moved = Vec::with_capacity(inner.len());
+        for round in 0..2 * SMOOTHING {
+            let step = if round % 2 == 0 { 0.5 } else { -0.53 };
+            moved.clear();
+            moved.extend(inner.iter().map(|&(node, [a, b])| {
+                let [here, a, b] = [node, a, b].map(|node| self.axis.nodes[node].at);
+                here.lerp(a.midpoint(b), step)
+            }));
+            for (&(node, _), &at) in inner.iter().zip(&moved) {
+                self.axis.nodes[node].at = at;
             }
         }
     }
