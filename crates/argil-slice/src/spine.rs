@@ -30,8 +30,9 @@ const GAP: f64 = 0.3;
 /// How far a spine runs on inside the wall, in w, so that the two are one region.
 const OVERLAP: f64 = 0.06;
 
-/// Rounds of smoothing.
+/// Rounds of smoothing, and how far they may move a node in all, in w.
 const SMOOTHING: usize = 10;
+const ASIDE: f64 = 0.05;
 
 /// The boundary of an outline in short steps.
 struct Boundary {
@@ -196,20 +197,28 @@ impl Pruning {
                 pruning.for_each_reached(node, |reached_by| *reached_by += 1);
             }
         }
-        pruning.meet(wall);
+        pruning.meet(wall, &depth);
         pruning
     }
 
     /// Moves the ends inside the wall to where the wall is nearest to the last node before it: chords across a
     /// wide part of the outline have their middles far from where the narrow part opens into it.
-    fn meet(&mut self, wall: &SegmentIndex) {
+    fn meet(&mut self, wall: &SegmentIndex, depth: &[f64]) {
         for end in (0..self.axis.nodes.len()).filter(|&node| self.kept[node] && self.anchored[node]) {
             let Some(before) = self.neighbours(end).next() else { continue };
             let from = self.axis.nodes[before].at;
-            if let Some(nearest) = wall.nearest_within(from, self.width) {
-                let inwards = (nearest.point - from).normalize_or_zero();
-                self.axis.nodes[end].at = nearest.point + inwards * (OVERLAP * self.width);
-            }
+            let at = match wall.nearest_within(from, self.width) {
+                Some(nearest) if depth[before] < 0.5 * self.width => {
+                    let inwards = (nearest.point - from).normalize_or_zero();
+                    nearest.point + inwards * (OVERLAP * self.width)
+                }
+                // It lies inside the wall itself, or within what the wall was opened by.
+                _ => {
+                    let onwards = self.axis.nodes[end].at - from;
+                    from + onwards.clamp_length_max(3.0 * OVERLAP * self.width)
+                }
+            };
+            self.axis.nodes[end].at = at;
         }
     }
 
@@ -342,28 +351,28 @@ impl Pruning {
         (piece_of, lengths, floats)
     }
 
-    /// Takes out the zigzag of the chords: steps towards the neighbours' middle and, a little longer, away from it
-    /// in turn, so that bends stay where they are (Taubin 1995, <https://doi.org/10.1145/218380.218473>).
+    /// Takes out the zigzag of the chords by steps towards the neighbours' middle. Nodes stay near their place, so
+    /// that bends are not cut.
     fn smooth(&mut self) {
-        let inner: Vec<(usize, [usize; 2])> = (0..self.axis.nodes.len())
+        let inner: Vec<(usize, [usize; 2], DVec2)> = (0..self.axis.nodes.len())
             .filter(|&node| self.kept[node] && !self.anchored[node])
             .filter_map(|node| {
                 let mut around = self.neighbours(node);
                 match (around.next(), around.next(), around.next()) {
-                    (Some(a), Some(b), None) => Some((node, [a, b])),
+                    (Some(a), Some(b), None) => Some((node, [a, b], self.axis.nodes[node].at)),
                     _ => None,
                 }
             })
             .collect();
         let mut moved = Vec::with_capacity(inner.len());
-        for round in 0..2 * SMOOTHING {
-            let step = if round % 2 == 0 { 0.5 } else { -0.53 };
+        for _ in 0..SMOOTHING {
             moved.clear();
-            moved.extend(inner.iter().map(|&(node, [a, b])| {
+            moved.extend(inner.iter().map(|&(node, [a, b], place)| {
                 let [here, a, b] = [node, a, b].map(|node| self.axis.nodes[node].at);
-                here.lerp(a.midpoint(b), step)
+                let wanted = here.midpoint(a.midpoint(b));
+                place + (wanted - place).clamp_length_max(ASIDE * self.width)
             }));
-            for (&(node, _), &at) in inner.iter().zip(&moved) {
+            for (&(node, ..), &at) in inner.iter().zip(&moved) {
                 self.axis.nodes[node].at = at;
             }
         }
