@@ -41,6 +41,10 @@ pub(crate) fn samples(points: &[DVec2], step: f64) -> Vec<Sample> {
 /// A maximal run of marked samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Run {
+    /// Index of its first sample.
+    pub(crate) first: usize,
+    /// Index of its last one; less than that of the first where a run goes over the end of a cycle.
+    pub(crate) last: usize,
     /// Index of the sample in the middle of the run.
     pub(crate) middle: usize,
     /// Length of the pieces in the run, mm.
@@ -64,7 +68,8 @@ pub(crate) fn runs(
             let (first, run) = open.unwrap_or((turn, 0.0));
             open = Some((first, run + length(k)));
         } else if let Some((first, length)) = open.take() {
-            runs.push(Run { middle: (begin + (first + turn) / 2) % count, length });
+            let at = |turn: usize| (begin + turn) % count;
+            runs.push(Run { first: at(first), last: at(turn - 1), middle: at((first + turn) / 2), length });
         }
     }
     runs
