@@ -57,7 +57,7 @@ pub fn audit(program: &Program, mesh: &Mesh, settings: &AuditSettings) -> Result
 
     let mut audit = Audit {
         settings,
-        tolerance: Tolerance::for_width(settings.width),
+        tolerance: Tolerance::for_width(settings.tolerance_width),
         figures: Figures { mesh_layers: outlines.len(), ..Figures::default() },
         findings: unreadable_lines(program),
         tally: Tally::default(),

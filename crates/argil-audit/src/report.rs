@@ -58,7 +58,7 @@ impl Report {
             ("unsupported_spans", count(f.unsupported_spans), 0.0),
             ("self_crossings", count(f.self_crossings), 0.0),
             ("wall_crossings", count(f.wall_crossings), 0.0),
-            ("seam_gap_max_mm", f.seam_gap_max_mm, Tolerance::for_width(self.settings.width).seam),
+            ("seam_gap_max_mm", f.seam_gap_max_mm, Tolerance::for_width(self.settings.tolerance_width).seam),
             ("seam_starts_unsupported", count(f.seam_starts_unsupported), 0.0),
         ];
         let mut short: Vec<Shortfall> = limits

@@ -238,3 +238,26 @@ fn rings(shape: &MultiPolygon<f64>) -> Vec<Vec<DVec2>> {
         .filter(|ring| ring.len() > 2)
         .collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The kernel leaves pieces without area of this one: wall that nobody could lay.
+    #[test]
+    fn an_outline_of_no_width_has_no_wall() {
+        let corners = [
+            (-12.702329099178314, -4.725191801786423),
+            (-12.258627623319626, -5.431338787078857),
+            (-12.252883523702621, -5.440480470657349),
+            (-11.663173526525497, -6.0301899909973145),
+            (-8.463963747024536, 0.5895503461360931),
+        ];
+        let outline = MultiPolygon::new(vec![Polygon::new(LineString::from(corners.to_vec()), Vec::new())]);
+        assert!(
+            offset(&outline, -0.75).0.len() > 1,
+            "the kernel has been mended: no more need to look for slivers"
+        );
+        assert!(wall_paths(&outline, 0.75, 1.5).0.is_empty());
+    }
+}
