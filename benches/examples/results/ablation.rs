@@ -3,12 +3,13 @@
 use argil::curve::{ClosedCurve, DVec2, SegmentIndex};
 use argil::elastic::{ElasticError, ElasticOptions, ElasticSolver, Path};
 use argil::route::{Cycle, LayerInput, RouteError, RouteSettings, Router};
-use argil::stages::{BestChain, PlaneSlices, Route, SlopedSafeguard, Smooth, Support};
+use argil::stages::{BestChain, PlaneSlices, PulledTaut, Route, SlopedSafeguard, Smooth, Support, Tauten};
 use argil::support::{Placement, SupportPoint, place_supports};
+use argil::taut::SlackPath;
 use argil::{Planner, Settings};
 
 use crate::document::Table;
-use crate::measure::{plan, verdict};
+use crate::measure::{settings, told, verdict};
 use crate::{Model, Outcome};
 
 /// The models that ablations are made on.
@@ -23,6 +24,8 @@ struct Part {
     smooth: Option<fn(&mut ElasticOptions)>,
     /// Candidates are taken as they are.
     rough: bool,
+    /// Smoothed paths keep their slack.
+    slack: bool,
     /// Layers are neither checked nor repaired.
     unchecked: bool,
 }
@@ -47,6 +50,8 @@ fn parts() -> Vec<Part> {
         Part { smooth: Some(|o| o.clearance = 0.0), ..part("clearance") },
         Part { smooth: Some(|o| o.repulsion = 0.0), ..part("repulsion") },
         Part { rough: true, ..part("smoothing") },
+        Part { slack: true, ..part("pulling taut") },
+        Part { rough: true, slack: true, ..part("smoothing and pulling taut") },
         Part { unchecked: true, ..part("check and repair") },
     ]
 }
@@ -89,6 +94,14 @@ impl Smooth for Smoothed {
     }
 }
 
+struct Tautened(Part);
+
+impl Tauten for Tautened {
+    fn points(&mut self, path: &SlackPath<'_>, settings: &Settings) -> Vec<DVec2> {
+        if self.0.slack { path.points.to_vec() } else { PulledTaut.points(path, settings) }
+    }
+}
+
 /// One row a part, one column a model: ratio, and what the audit finds short.
 pub(crate) fn table(models: &[&Model]) -> Outcome<Table> {
     let names = MODELS.into_iter().filter(|name| models.iter().any(|model| model.name == *name));
@@ -108,10 +121,12 @@ pub(crate) fn table(models: &[&Model]) -> Outcome<Table> {
                 support: Placed(part),
                 route: Routed(part),
                 smooth: Smoothed(part, ElasticSolver::default()),
+                taut: Tautened(part),
                 seam: BestChain,
                 checked: !part.unchecked,
             };
-            row.push(match plan(&mut planner, &model.mesh, 1)? {
+            let plan = planner.plan(&model.mesh, &settings(1));
+            row.push(match told(plan, &model.mesh, 1)? {
                 Ok((_, _, report)) => {
                     let ratio = report.figures.material_ratio;
                     if report.is_sound() {

@@ -2,8 +2,7 @@
 
 use argil::gcode::{GcodeSettings, read_gcode, write_gcode};
 use argil::mesh::Mesh;
-use argil::stages::{Route, Safeguard, Seam, Slice, Smooth, Support};
-use argil::{Plan, Planner, Settings};
+use argil::{Plan, PlanError, Planner, Settings};
 use argil_audit::{AuditSettings, Report, audit};
 
 use crate::{Model, Outcome};
@@ -53,7 +52,8 @@ pub(crate) fn measured(model: &Model, walls: usize) -> Outcome<Measured> {
         report: None,
         failure: String::new(),
     };
-    match plan(&mut Planner::default(), &model.mesh, walls)? {
+    let plan = Planner::default().plan(&model.mesh, &settings(walls));
+    match told(plan, &model.mesh, walls)? {
         Ok((plan, gcode, report)) => {
             measured.plan = Some(plan);
             measured.gcode = Some(gcode);
@@ -64,13 +64,12 @@ pub(crate) fn measured(model: &Model, walls: usize) -> Outcome<Measured> {
     Ok(measured)
 }
 
-/// A plan by any planner, its g-code and report; in the inner error, why there is no plan.
-pub(crate) fn plan<S: Slice, G: Safeguard, U: Support, R: Route, E: Smooth, C: Seam>(
-    planner: &mut Planner<S, G, U, R, E, C>,
-    mesh: &Mesh,
-    walls: usize,
-) -> Outcome<Result<(Plan, String, Report), String>> {
-    match planner.plan(mesh, &settings(walls)) {
+/// What there is when planning went well: the plan, its g-code and report; else why there is none.
+pub(crate) type Planned = Result<(Plan, String, Report), String>;
+
+/// The g-code and the report of a plan.
+pub(crate) fn told(plan: Result<Plan, PlanError>, mesh: &Mesh, walls: usize) -> Outcome<Planned> {
+    match plan {
         Ok(plan) => {
             let gcode = write_gcode(&plan.strand, &GcodeSettings::default())?;
             let report = audited(&gcode, mesh, walls)?;
