@@ -31,15 +31,16 @@ pub(crate) struct Plan<'a> {
 }
 
 impl<'a> Plan<'a> {
-    /// Plans all layers, and tests no step for crossings.
+    /// Plans all layers, and tests no step for crossings. `also` has the arc of one more start for each of the lowest cycles.
     pub(crate) fn trusting(
         cycles: &'a [ClosedCurve],
+        also: &[f64],
         settings: &'a SeamSettings,
         cost: &'a dyn Fn(usize, DVec2) -> f64,
     ) -> Result<Self, SeamError> {
         let mut plan = Self { cycles, settings, cost, layers: Vec::with_capacity(cycles.len()) };
         for (layer, cycle) in cycles.iter().enumerate() {
-            let candidates = Candidates::along(cycle, settings.spacing);
+            let candidates = Candidates::along(cycle, settings.spacing, also.get(layer).copied());
             let count = candidates.points.len();
             let mut costs = vec![f64::INFINITY; count];
             let mut from = vec![0; count];
@@ -107,11 +108,13 @@ impl<'a> Plan<'a> {
         let Candidates { points, headings, .. } = &self.layers[layer].candidates;
         let mended: Vec<(f64, u32)> = stale
             .iter()
-            .map(|&k| match ascent.cheapest_where(points[k], headings[k].leaving, |start| {
-                self.is_sound(layer, k, start)
-            }) {
-                Some(best) => (best.cost + self.extra(layer, points[k]), best.candidate),
-                None => (f64::INFINITY, 0),
+            .map(|&k| {
+                match ascent
+                    .cheapest_where(points[k], headings[k].leaving, |start| self.is_sound(layer, k, start))
+                {
+                    Some(best) => (best.cost + self.extra(layer, points[k]), best.candidate),
+                    None => (f64::INFINITY, 0),
+                }
             })
             .collect();
         let here = &mut self.layers[layer];
@@ -128,7 +131,7 @@ impl<'a> Plan<'a> {
         let here = &self.layers[layer];
         here.tested.as_ref().is_none_or(|index| {
             let step = Segment::new(start, here.candidates.points[k]);
-            is_clear_by(index, &step, here.candidates.arc(k), &self.cycles[layer])
+            is_clear_by(index, &step, here.candidates.arcs[k], &self.cycles[layer])
         })
     }
 
@@ -156,14 +159,14 @@ impl<'a> Plan<'a> {
         (1..chain.len())
             .filter(|&layer| {
                 let step = Segment::new(place(layer - 1), place(layer));
-                !is_clear(&step, self.layers[layer].candidates.arc(chain[layer]), &self.cycles[layer])
+                !is_clear(&step, self.layers[layer].candidates.arcs[chain[layer]], &self.cycles[layer])
             })
             .collect()
     }
 
     /// The arc lengths of the candidates of a chain.
     pub(crate) fn arcs_of(&self, chain: &[usize]) -> Vec<f64> {
-        chain.iter().zip(&self.layers).map(|(&k, layer)| layer.candidates.arc(k)).collect()
+        chain.iter().zip(&self.layers).map(|(&k, layer)| layer.candidates.arcs[k]).collect()
     }
 
     /// The caller's cost; infinite for what is not a number.
@@ -218,12 +221,19 @@ impl<'a> Ascent<'a> {
     fn cheapest_where(&self, p: DVec2, leaving: DVec2, sound: impl Fn(DVec2) -> bool) -> Option<Reached> {
         let mut best = self.cheapest(p, leaving);
         while let Some(next) = best.filter(|next| !sound(next.point)) {
-            best = self.cheapest_after(p, leaving, |cost, candidate| (cost, candidate) > (next.cost, next.candidate));
+            best = self.cheapest_after(p, leaving, |cost, candidate| {
+                (cost, candidate) > (next.cost, next.candidate)
+            });
         }
         best
     }
 
-    fn cheapest_after(&self, p: DVec2, leaving: DVec2, admitted: impl Fn(f64, u32) -> bool) -> Option<Reached> {
+    fn cheapest_after(
+        &self,
+        p: DVec2,
+        leaving: DVec2,
+        admitted: impl Fn(f64, u32) -> bool,
+    ) -> Option<Reached> {
         let limit = self.settings.reach * self.settings.reach;
         let mut nearest = f64::INFINITY;
         let mut best = Reached { point: p, arriving: leaving, cost: f64::INFINITY, candidate: 0 };
@@ -232,7 +242,8 @@ impl<'a> Ascent<'a> {
             nearest = nearest.min(squared);
             let mut cost = start.cost + squared;
             if cost <= best.cost && squared <= limit {
-                cost += self.settings.sharp * f64::from(sharp_turns(start.arriving, p - start.point, leaving));
+                cost +=
+                    self.settings.sharp * f64::from(sharp_turns(start.arriving, p - start.point, leaving));
             }
             if cost <= best.cost && squared <= limit {
                 let better = cost < best.cost || start.candidate < best.candidate;

@@ -38,11 +38,8 @@ pub(crate) fn strand(
         let beside = roots[k].iter().any(|root| root.distance(p) < ROOT_REACH * width);
         (VISIBLE + if beside { BESIDE_ROOT } else { 0.0 }) * width * width
     };
-    let starts = match seam.starts(&cycles, settings, &cost) {
-        Ok(starts) => starts,
-        // The chain that the descent has kept open on the way down.
-        Err(error) => footholds(layers, settings).ok_or(error)?,
-    };
+    let footholds: Vec<f64> = layers.iter().map(|layer| layer.foothold).collect();
+    let starts = seam.starts(&cycles, &footholds, settings, &cost)?;
     let mut strand_layers = Vec::with_capacity(layers.len());
     let mut first: Option<DVec2> = None;
     let mut below = None;
@@ -68,16 +65,6 @@ pub(crate) fn strand(
         });
     }
     Ok(Strand::new(first.unwrap_or_default(), strand_layers)?)
-}
-
-/// The chain of footholds, if each is held and within a step of the one below.
-fn footholds(layers: &[PlannedLayer], settings: &Settings) -> Option<Vec<f64>> {
-    let seam = settings.seaming();
-    let climbs = layers.windows(2).all(|pair| {
-        let (from, to) = (&pair[0], pair[1].foothold);
-        from.foothold.distance(to) <= seam.reach && from.curve.nearest(to).distance <= seam.across
-    });
-    climbs.then(|| layers.iter().map(|layer| layer.curve.nearest(layer.foothold).s).collect())
 }
 
 /// The cycle opened at `start`, or at the nearest place along it to which the step from the layer below is clear, held
