@@ -118,6 +118,9 @@ pub(crate) struct AuditArgs {
     /// The model that it was made from: an STL file, or sample:NAME.
     #[arg(long, value_name = "MODEL")]
     pub(crate) model: String,
+    /// Bead width that the tolerances of the audit are meant for, in mm [default: the bead's width].
+    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
+    pub(crate) tolerance_width: Option<f64>,
     /// Write the figures as JSON.
     #[arg(long, value_name = "OUT.json")]
     pub(crate) json: Option<PathBuf>,

@@ -14,7 +14,7 @@ use crate::args::PlanArgs;
 use crate::audit_command::measure;
 use crate::failure::{FINDINGS, Failure};
 use crate::progress::PlanBar;
-use crate::report::{PlanReport, is_finding, summary};
+use crate::report::{PlanReport, cleaning, is_finding, summary};
 use crate::{input, output};
 
 /// Longest side of the overview picture, pixels.
@@ -44,6 +44,7 @@ pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
     let mut findings = plan.losses.iter().any(is_finding);
     if let Some(report) = &audit {
         findings |= !report.is_sound();
+        eprintln!("{}", cleaning(report));
         let short = report.falls_short();
         if short.is_empty() {
             eprintln!("audit: sound");
