@@ -10,6 +10,7 @@ use argil_route::{Cycle, LayerInput, RouteError, Router};
 use argil_seam::{SeamError, SeamSettings};
 use argil_slice::{Layer, SliceError};
 use argil_support::SupportPoint;
+use argil_taut::{SlackPath, pulled_taut};
 use geo_types::MultiPolygon;
 
 use crate::Settings;
@@ -52,6 +53,13 @@ pub trait Smooth {
     /// # Errors
     /// When the path is malformed.
     fn points(&mut self, path: &Path<'_>, settings: &Settings) -> Result<Vec<DVec2>, ElasticError>;
+}
+
+/// Takes the slack out of a cycle that is sound.
+pub trait Tauten {
+    /// As many points as the path has, fixed ones unchanged. What the planner cannot use, since it crosses itself or
+    /// holds too little, it leaves.
+    fn points(&mut self, path: &SlackPath<'_>, settings: &Settings) -> Vec<DVec2>;
 }
 
 /// Chooses where each layer begins.
@@ -122,6 +130,26 @@ pub struct ElasticCurve {
 impl Smooth for ElasticCurve {
     fn points(&mut self, path: &Path<'_>, settings: &Settings) -> Result<Vec<DVec2>, ElasticError> {
         Ok(self.solver.relax(path, &settings.smoothing())?.points)
+    }
+}
+
+/// As short as the exact rule of support allows ([`argil_taut`]).
+#[derive(Clone, Copy, Debug, Default)]
+pub struct PulledTaut;
+
+impl Tauten for PulledTaut {
+    fn points(&mut self, path: &SlackPath<'_>, settings: &Settings) -> Vec<DVec2> {
+        pulled_taut(path, &settings.tautening())
+    }
+}
+
+/// Leaves the path as it is.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct LeftSlack;
+
+impl Tauten for LeftSlack {
+    fn points(&mut self, path: &SlackPath<'_>, _: &Settings) -> Vec<DVec2> {
+        path.points.to_vec()
     }
 }
 
