@@ -1,7 +1,7 @@
 //! The costs of all starts, layer by layer, and the cheapest chain through them.
 
 use crate::candidates::{Candidates, Reached, ReachedGrid};
-use crate::step::{is_clear, is_clear_by};
+use crate::step::{is_clear, is_clear_by, sharp_turns};
 use crate::{SeamError, SeamSettings};
 use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex};
 use std::cell::OnceCell;
@@ -51,7 +51,7 @@ impl<'a> Plan<'a> {
                     None => costs[k] = extra,
                     Some(_) if extra.is_infinite() => {}
                     Some(ascent) => {
-                        if let Some(best) = ascent.cheapest(p) {
+                        if let Some(best) = ascent.cheapest(p, candidates.headings[k].leaving) {
                             (costs[k], from[k]) = (best.cost + extra, best.candidate);
                         }
                     }
@@ -104,10 +104,12 @@ impl<'a> Plan<'a> {
             return risen;
         }
         let ascent = Ascent::new(&self.cycles[layer - 1], &self.layers[layer - 1], self.settings);
-        let points = &self.layers[layer].candidates.points;
+        let Candidates { points, headings, .. } = &self.layers[layer].candidates;
         let mended: Vec<(f64, u32)> = stale
             .iter()
-            .map(|&k| match ascent.cheapest_where(points[k], |start| self.is_sound(layer, k, start)) {
+            .map(|&k| match ascent.cheapest_where(points[k], headings[k].leaving, |start| {
+                self.is_sound(layer, k, start)
+            }) {
                 Some(best) => (best.cost + self.extra(layer, points[k]), best.candidate),
                 None => (f64::INFINITY, 0),
             })
@@ -201,34 +203,37 @@ struct Ascent<'a> {
 
 impl<'a> Ascent<'a> {
     fn new(cycle: &'a ClosedCurve, layer: &Layer, settings: &'a SeamSettings) -> Self {
-        let reached = ReachedGrid::over(&layer.candidates.points, &layer.costs, settings.reach);
+        let reached = ReachedGrid::over(&layer.candidates, &layer.costs, settings.reach);
         Self { reached, cycle, ground: OnceCell::new(), settings }
     }
 
-    /// The start below from which `p` is reached at the least cost, which is that of its chain and the
-    /// squared step; the lowest candidate among equals. `None` if there is none within reach or `p` is not
-    /// held.
-    fn cheapest(&self, p: DVec2) -> Option<Reached> {
-        self.cheapest_after(p, |_, _| true)
+    /// The start below from which `p` is reached at the least cost, which is that of its chain, the
+    /// squared step and its sharp turns; the lowest candidate among equals. `None` if there is none within reach or `p`
+    /// is not held. The walk goes on from `p` in the direction `leaving`.
+    fn cheapest(&self, p: DVec2, leaving: DVec2) -> Option<Reached> {
+        self.cheapest_after(p, leaving, |_, _| true)
     }
 
     /// The same among starts that are `sound`.
-    fn cheapest_where(&self, p: DVec2, sound: impl Fn(DVec2) -> bool) -> Option<Reached> {
-        let mut best = self.cheapest(p);
+    fn cheapest_where(&self, p: DVec2, leaving: DVec2, sound: impl Fn(DVec2) -> bool) -> Option<Reached> {
+        let mut best = self.cheapest(p, leaving);
         while let Some(next) = best.filter(|next| !sound(next.point)) {
-            best = self.cheapest_after(p, |cost, candidate| (cost, candidate) > (next.cost, next.candidate));
+            best = self.cheapest_after(p, leaving, |cost, candidate| (cost, candidate) > (next.cost, next.candidate));
         }
         best
     }
 
-    fn cheapest_after(&self, p: DVec2, admitted: impl Fn(f64, u32) -> bool) -> Option<Reached> {
+    fn cheapest_after(&self, p: DVec2, leaving: DVec2, admitted: impl Fn(f64, u32) -> bool) -> Option<Reached> {
         let limit = self.settings.reach * self.settings.reach;
         let mut nearest = f64::INFINITY;
-        let mut best = Reached { point: p, cost: f64::INFINITY, candidate: 0 };
+        let mut best = Reached { point: p, arriving: leaving, cost: f64::INFINITY, candidate: 0 };
         self.reached.for_each_near(p, |start| {
             let squared = start.point.distance_squared(p);
             nearest = nearest.min(squared);
-            let cost = start.cost + squared;
+            let mut cost = start.cost + squared;
+            if cost <= best.cost && squared <= limit {
+                cost += self.settings.sharp * f64::from(sharp_turns(start.arriving, p - start.point, leaving));
+            }
             if cost <= best.cost && squared <= limit {
                 let better = cost < best.cost || start.candidate < best.candidate;
                 if better && admitted(cost, start.candidate) {
