@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use std::f64::consts::TAU;
 
 /// A disc as a polygon of 48 corners.
-pub fn disc(x: f64, y: f64, radius: f64) -> MultiPolygon<f64> {
+pub(crate) fn disc(x: f64, y: f64, radius: f64) -> MultiPolygon<f64> {
     let corner = |k: usize| {
         let angle = k as f64 * TAU / 48.0;
         Coord { x: x + radius * angle.cos(), y: y + radius * angle.sin() }
@@ -15,12 +15,12 @@ pub fn disc(x: f64, y: f64, radius: f64) -> MultiPolygon<f64> {
 }
 
 /// The ring between two circles about the origin.
-pub fn annulus(inner: f64, outer: f64) -> MultiPolygon<f64> {
+pub(crate) fn annulus(inner: f64, outer: f64) -> MultiPolygon<f64> {
     disc(0.0, 0.0, outer).difference(&disc(0.0, 0.0, inner))
 }
 
 /// A rectangle with one corner at the origin.
-pub fn strip(length: f64, width: f64) -> MultiPolygon<f64> {
+pub(crate) fn strip(length: f64, width: f64) -> MultiPolygon<f64> {
     let corners = [(0.0, 0.0), (length, 0.0), (length, width), (0.0, width)];
     MultiPolygon(vec![Polygon::new(LineString(corners.map(Coord::from).to_vec()), Vec::new())])
 }
@@ -31,7 +31,7 @@ fn bar(from: (f64, f64), to: (f64, f64), half: f64) -> MultiPolygon<f64> {
 }
 
 /// Discs and bars that may overlap, less other discs: islands, holes, necks and strips of any width, 2 to 30 mm across.
-pub fn region() -> impl Strategy<Value = MultiPolygon<f64>> {
+pub(crate) fn region() -> impl Strategy<Value = MultiPolygon<f64>> {
     let place = || (-12.0..12.0, -12.0..12.0);
     let discs = prop::collection::vec((place(), 1.0..6.0), 1..5);
     let bars = prop::collection::vec((place(), place(), 0.8..3.0), 0..4);
