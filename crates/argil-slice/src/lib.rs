@@ -13,6 +13,7 @@
 mod chain;
 mod containment;
 mod error;
+mod further;
 mod layer;
 mod region;
 mod section;

@@ -1,5 +1,6 @@
 use crate::SliceSettings;
 use crate::containment::nest;
+use crate::further::with_slivers;
 use crate::layer::{Loss, WallLoop};
 use crate::region::{self, perimeter, polygon_through, ring_points, signed_area};
 use crate::simplification::{distance_to_side, rounded, simplified};
@@ -120,10 +121,11 @@ impl<'a> Source<'a> {
         let width = settings.width;
         let opening = cleaning.opening * width;
         let shrunk = region::inset(self.polygon, self.distance + opening, CHORD * width);
-        if shrunk.0.is_empty() {
-            return Vec::new();
+        let mut opened = if shrunk.0.is_empty() { shrunk } else { region::mitred_dilation(&shrunk, opening) };
+        if self.wall > 0 {
+            let scale = (width, settings.grid, CHORD * width);
+            opened = with_slivers(self.polygon, self.distance, opened, scale);
         }
-        let opened = region::mitred_dilation(&shrunk, opening);
         opened.into_iter().filter_map(|region| self.piece(region, cleaning, settings)).collect()
     }
 
