@@ -15,6 +15,7 @@ mod chordal_axis;
 mod containment;
 mod error;
 mod fit;
+mod further;
 mod layer;
 mod mitre;
 mod region;

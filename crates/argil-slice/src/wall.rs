@@ -1,6 +1,7 @@
 use crate::SliceSettings;
 use crate::containment::nest;
 use crate::fit::{Fit, inner_point};
+use crate::further::with_slivers;
 use crate::layer::{Loss, WallLoop};
 use crate::mitre::mitre;
 use crate::region::{self, perimeter, polygon_through, ring_points, signed_area};
@@ -141,10 +142,11 @@ impl<'a> Source<'a> {
         let width = settings.width;
         let opening = cleaning.opening * width;
         let shrunk = region::inset(self.polygon, self.distance + opening, CHORD * width);
-        if shrunk.0.is_empty() {
-            return Vec::new();
+        let mut opened = if shrunk.0.is_empty() { shrunk } else { region::mitred_dilation(&shrunk, opening) };
+        if self.wall > 0 {
+            let scale = (width, settings.grid, CHORD * width);
+            opened = with_slivers(self.polygon, self.distance, opened, scale);
         }
-        let opened = region::mitred_dilation(&shrunk, opening);
         opened.into_iter().filter_map(|region| self.piece(region, cleaning, settings)).collect()
     }
 
