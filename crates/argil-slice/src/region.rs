@@ -45,11 +45,6 @@ pub(crate) fn mitred_dilation(region: &MultiPolygon<f64>, distance: f64) -> Mult
     offset(region, distance, LineJoin::Miter(60_f64.to_radians()))
 }
 
-/// What lies in either region.
-pub(crate) fn union(a: &MultiPolygon<f64>, b: &MultiPolygon<f64>) -> MultiPolygon<f64> {
-    a.boolean_op_with_fill_rule(b, OpType::Union, FillRule::NonZero)
-}
-
 fn offset(region: &impl Buffer<Scalar = f64>, distance: f64, join: LineJoin<f64>) -> MultiPolygon<f64> {
     region.buffer_with_style(BufferStyle::new(distance).line_join(join))
 }
