@@ -44,13 +44,15 @@ pub(crate) struct Wanted {
 impl Wanted {
     pub(crate) fn new(outline: &MultiPolygon<f64>, settings: &AuditSettings, tolerance: &Tolerance) -> Self {
         let width = settings.width;
-        let inner = offset(outline, -0.5 * width);
+        let outlines = rings(outline);
+        let outline_index = segment_index(outlines.iter().map(Vec::as_slice), width);
+        let inner = inset(outline, &outline_index, 0.5 * width);
         let outermost = rings(&inner);
         let inner_region = Region::new(&outermost);
         let mut walls = outermost.clone();
         let (mut laid, mut swept) = laid_and_swept(&inner, width);
         for j in 1..settings.walls {
-            let inset = offset(outline, -(j as f64 + 0.5) * width);
+            let inset = inset(outline, &outline_index, (j as f64 + 0.5) * width);
             if inset.0.is_empty() {
                 break;
             }
@@ -63,7 +65,7 @@ impl Wanted {
         let index = |rings: &[Vec<DVec2>]| segment_index(rings.iter().map(Vec::as_slice), width);
         let outermost_index = (walls.len() > outermost.len()).then(|| index(&outermost));
         let mut wanted = Self {
-            outlines: rings(outline),
+            outlines,
             wall_index: index(&walls),
             walls,
             wall_clay: (laid, swept),
@@ -145,6 +147,17 @@ pub(crate) fn segment_index<'a>(lines: impl IntoIterator<Item = &'a [DVec2]>, wi
 /// Distance from `p` to the nearest segment, mm; infinity when that is more than `limit`.
 pub(crate) fn within(index: &SegmentIndex, p: DVec2, limit: f64) -> f64 {
     index.nearest_within(p, limit).map_or(f64::INFINITY, |nearest| nearest.distance)
+}
+
+/// What lies at least `distance` inside of the outline.
+///
+/// The polygon kernel may leave a triangle just inside of the outline, where offset sides meet in one point of its integer
+/// grid; such pieces are left out.
+fn inset(outline: &MultiPolygon<f64>, outline_index: &SegmentIndex, distance: f64) -> MultiPolygon<f64> {
+    let mut inside = offset(outline, -distance);
+    let deep = |c: &geo::Coord| outline_index.nearest_within(DVec2::new(c.x, c.y), 0.95 * distance).is_none();
+    inside.0.retain(|polygon| polygon.exterior().coords().all(deep));
+    inside
 }
 
 fn offset(shape: &MultiPolygon<f64>, distance: f64) -> MultiPolygon<f64> {
