@@ -136,9 +136,14 @@ impl Seam for BestChain {
         settings: &Settings,
         cost: &dyn Fn(usize, DVec2) -> f64,
     ) -> Result<Vec<f64>, SeamError> {
-        // Where strand dies on a wall the one way up may be narrow: a chain that is not found is looked for more finely.
         let usual = settings.seaming();
-        let fine = SeamSettings { spacing: usual.spacing / 4.0, ..usual };
-        argil_seam::seam_chain(cycles, &usual, cost).or_else(|_| argil_seam::seam_chain(cycles, &fine, cost))
+        let chain = |reach: f64, fineness: f64| {
+            let seam =
+                SeamSettings { reach: reach * usual.reach, spacing: usual.spacing / fineness, ..usual };
+            argil_seam::seam_chain(cycles, &seam, cost)
+        };
+        // Most prints have a chain of steps half as long as they may be, and short steps show less. Where strand dies on a wall
+        // the one way up may be narrow: a chain that is not found is looked for more finely.
+        chain(0.5, 1.0).or_else(|_| chain(0.5, 4.0)).or_else(|_| chain(1.0, 1.0)).or_else(|_| chain(1.0, 4.0))
     }
 }
