@@ -5,27 +5,61 @@ use argil_curve::{ClosedCurve, DVec2};
 /// Candidates of one layer are never more than this, whatever the spacing; the answer would be no better.
 const MOST_CANDIDATES: f64 = 1e6;
 
+/// A place this near to a vertex is at the vertex, mm: where the strand would be cut it is no farther from it on the output
+/// grid.
+const ON_VERTEX: f64 = 1e-3;
+
 /// Cells of the grid for each candidate. A candidate's strand fills few cells, so most are empty; their
 /// number bounds the time to clear them.
 const CELLS_PER_CANDIDATE: usize = 8;
 
-/// Evenly spaced places along a cycle.
+/// The walk along a cycle at one of its places.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Headings {
+    /// Direction in which it comes, where the layer ends.
+    pub(crate) arriving: DVec2,
+    /// Direction in which it goes on, where the layer begins.
+    pub(crate) leaving: DVec2,
+}
+
+/// Places along a cycle.
 pub(crate) struct Candidates {
     pub(crate) points: Vec<DVec2>,
-    /// Arc length from one to the next, mm.
-    pub(crate) spacing: f64,
+    /// Direction in which the walk along the cycle comes to each, and in which it goes on; of length 1.
+    pub(crate) headings: Vec<Headings>,
+    /// Arc length of each, mm.
+    pub(crate) arcs: Vec<f64>,
 }
 
 impl Candidates {
-    pub(crate) fn along(cycle: &ClosedCurve, spacing: f64) -> Self {
-        let points = cycle.resampled(spacing.max(cycle.length() / MOST_CANDIDATES));
+    /// Places at the given spacing, and one more.
+    pub(crate) fn along(cycle: &ClosedCurve, spacing: f64, also: Option<f64>) -> Self {
+        let mut points = cycle.resampled(spacing.max(cycle.length() / MOST_CANDIDATES));
         let spacing = cycle.length() / points.len() as f64;
-        Self { points, spacing }
+        let mut arcs: Vec<f64> = (0..points.len()).map(|k| k as f64 * spacing).collect();
+        if let Some(arc) = also.filter(|arc| arc.is_finite()) {
+            let arc = cycle.wrapped(arc);
+            arcs.push(arc);
+            points.push(cycle.point_at(arc));
+        }
+        let headings = arcs.iter().map(|&arc| headings(cycle, arc)).collect();
+        Self { points, headings, arcs }
     }
+}
 
-    /// Arc length of candidate `k`.
-    pub(crate) fn arc(&self, k: usize) -> f64 {
-        k as f64 * self.spacing
+/// The directions of the walk before and behind an arc length: two of the cycle's segments if it is at a vertex, else one.
+fn headings(cycle: &ClosedCurve, arc: f64) -> Headings {
+    let on = cycle.locate(arc);
+    let n = cycle.segment_count();
+    let heading = |k: usize| {
+        let segment = cycle.segment(k % n);
+        (segment.end - segment.start).normalize_or_zero()
+    };
+    let segment = cycle.segment(on.segment);
+    let (begun, left) = (on.t * segment.length(), (1.0 - on.t) * segment.length());
+    Headings {
+        arriving: heading(if begun <= ON_VERTEX { on.segment + n - 1 } else { on.segment }),
+        leaving: heading(if left <= ON_VERTEX { on.segment + 1 } else { on.segment }),
     }
 }
 
@@ -33,6 +67,7 @@ impl Candidates {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Reached {
     pub(crate) point: DVec2,
+    pub(crate) arriving: DVec2,
     pub(crate) cost: f64,
     pub(crate) candidate: u32,
 }
@@ -52,8 +87,9 @@ pub(crate) struct ReachedGrid {
 
 impl ReachedGrid {
     /// A grid over the candidates whose cost is finite, for queries of radius `reach` mm.
-    pub(crate) fn over(points: &[DVec2], costs: &[f64], reach: f64) -> Self {
-        let starts = || points.iter().zip(costs).enumerate().filter(|(_, (_, cost))| cost.is_finite());
+    pub(crate) fn over(candidates: &Candidates, costs: &[f64], reach: f64) -> Self {
+        let starts =
+            || candidates.points.iter().zip(costs).enumerate().filter(|(_, (_, cost))| cost.is_finite());
         let (mut low, mut high, mut count) = (DVec2::INFINITY, DVec2::NEG_INFINITY, 0);
         for (_, (&point, _)) in starts() {
             low = low.min(point);
@@ -85,10 +121,12 @@ impl ReachedGrid {
             offsets[k] += offsets[k - 1];
         }
         let mut next = offsets.clone();
-        let mut reached = vec![Reached { point: DVec2::ZERO, cost: 0.0, candidate: 0 }; count];
+        let nobody = Reached { point: DVec2::ZERO, arriving: DVec2::ZERO, cost: 0.0, candidate: 0 };
+        let mut reached = vec![nobody; count];
         for (k, (&point, &cost)) in starts() {
             let slot = &mut next[cell_of(point)];
-            reached[*slot as usize] = Reached { point, cost, candidate: k as u32 };
+            let arriving = candidates.headings[k].arriving;
+            reached[*slot as usize] = Reached { point, arriving, cost, candidate: k as u32 };
             *slot += 1;
         }
         let radius_in_cells = reach * cells_per_mm + 1e-6;

@@ -1,7 +1,7 @@
 //! The costs of all starts, layer by layer, and the cheapest chain through them.
 
 use crate::candidates::{Candidates, Reached, ReachedGrid};
-use crate::step::{is_clear, is_clear_by};
+use crate::step::{is_clear, is_clear_by, sharp_turns};
 use crate::{SeamError, SeamSettings};
 use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex};
 use std::cell::OnceCell;
@@ -31,15 +31,16 @@ pub(crate) struct Plan<'a> {
 }
 
 impl<'a> Plan<'a> {
-    /// Plans all layers, and tests no step for crossings.
+    /// Plans all layers, and tests no step for crossings. `also` has the arc of one more start for each of the lowest cycles.
     pub(crate) fn trusting(
         cycles: &'a [ClosedCurve],
+        also: &[f64],
         settings: &'a SeamSettings,
         cost: &'a dyn Fn(usize, DVec2) -> f64,
     ) -> Result<Self, SeamError> {
         let mut plan = Self { cycles, settings, cost, layers: Vec::with_capacity(cycles.len()) };
         for (layer, cycle) in cycles.iter().enumerate() {
-            let candidates = Candidates::along(cycle, settings.spacing);
+            let candidates = Candidates::along(cycle, settings.spacing, also.get(layer).copied());
             let count = candidates.points.len();
             let mut costs = vec![f64::INFINITY; count];
             let mut from = vec![0; count];
@@ -51,7 +52,7 @@ impl<'a> Plan<'a> {
                     None => costs[k] = extra,
                     Some(_) if extra.is_infinite() => {}
                     Some(ascent) => {
-                        if let Some(best) = ascent.cheapest(p) {
+                        if let Some(best) = ascent.cheapest(p, candidates.headings[k].leaving) {
                             (costs[k], from[k]) = (best.cost + extra, best.candidate);
                         }
                     }
@@ -104,12 +105,16 @@ impl<'a> Plan<'a> {
             return risen;
         }
         let ascent = Ascent::new(&self.cycles[layer - 1], &self.layers[layer - 1], self.settings);
-        let points = &self.layers[layer].candidates.points;
+        let Candidates { points, headings, .. } = &self.layers[layer].candidates;
         let mended: Vec<(f64, u32)> = stale
             .iter()
-            .map(|&k| match ascent.cheapest_where(points[k], |start| self.is_sound(layer, k, start)) {
-                Some(best) => (best.cost + self.extra(layer, points[k]), best.candidate),
-                None => (f64::INFINITY, 0),
+            .map(|&k| {
+                match ascent
+                    .cheapest_where(points[k], headings[k].leaving, |start| self.is_sound(layer, k, start))
+                {
+                    Some(best) => (best.cost + self.extra(layer, points[k]), best.candidate),
+                    None => (f64::INFINITY, 0),
+                }
             })
             .collect();
         let here = &mut self.layers[layer];
@@ -126,7 +131,7 @@ impl<'a> Plan<'a> {
         let here = &self.layers[layer];
         here.tested.as_ref().is_none_or(|index| {
             let step = Segment::new(start, here.candidates.points[k]);
-            is_clear_by(index, &step, here.candidates.arc(k), &self.cycles[layer])
+            is_clear_by(index, &step, here.candidates.arcs[k], &self.cycles[layer])
         })
     }
 
@@ -154,14 +159,14 @@ impl<'a> Plan<'a> {
         (1..chain.len())
             .filter(|&layer| {
                 let step = Segment::new(place(layer - 1), place(layer));
-                !is_clear(&step, self.layers[layer].candidates.arc(chain[layer]), &self.cycles[layer])
+                !is_clear(&step, self.layers[layer].candidates.arcs[chain[layer]], &self.cycles[layer])
             })
             .collect()
     }
 
     /// The arc lengths of the candidates of a chain.
     pub(crate) fn arcs_of(&self, chain: &[usize]) -> Vec<f64> {
-        chain.iter().zip(&self.layers).map(|(&k, layer)| layer.candidates.arc(k)).collect()
+        chain.iter().zip(&self.layers).map(|(&k, layer)| layer.candidates.arcs[k]).collect()
     }
 
     /// The caller's cost; infinite for what is not a number.
@@ -201,34 +206,45 @@ struct Ascent<'a> {
 
 impl<'a> Ascent<'a> {
     fn new(cycle: &'a ClosedCurve, layer: &Layer, settings: &'a SeamSettings) -> Self {
-        let reached = ReachedGrid::over(&layer.candidates.points, &layer.costs, settings.reach);
+        let reached = ReachedGrid::over(&layer.candidates, &layer.costs, settings.reach);
         Self { reached, cycle, ground: OnceCell::new(), settings }
     }
 
-    /// The start below from which `p` is reached at the least cost, which is that of its chain and the
-    /// squared step; the lowest candidate among equals. `None` if there is none within reach or `p` is not
-    /// held.
-    fn cheapest(&self, p: DVec2) -> Option<Reached> {
-        self.cheapest_after(p, |_, _| true)
+    /// The start below from which `p` is reached at the least cost, which is that of its chain, the
+    /// squared step and its sharp turns; the lowest candidate among equals. `None` if there is none within reach or `p`
+    /// is not held. The walk goes on from `p` in the direction `leaving`.
+    fn cheapest(&self, p: DVec2, leaving: DVec2) -> Option<Reached> {
+        self.cheapest_after(p, leaving, |_, _| true)
     }
 
     /// The same among starts that are `sound`.
-    fn cheapest_where(&self, p: DVec2, sound: impl Fn(DVec2) -> bool) -> Option<Reached> {
-        let mut best = self.cheapest(p);
+    fn cheapest_where(&self, p: DVec2, leaving: DVec2, sound: impl Fn(DVec2) -> bool) -> Option<Reached> {
+        let mut best = self.cheapest(p, leaving);
         while let Some(next) = best.filter(|next| !sound(next.point)) {
-            best = self.cheapest_after(p, |cost, candidate| (cost, candidate) > (next.cost, next.candidate));
+            best = self.cheapest_after(p, leaving, |cost, candidate| {
+                (cost, candidate) > (next.cost, next.candidate)
+            });
         }
         best
     }
 
-    fn cheapest_after(&self, p: DVec2, admitted: impl Fn(f64, u32) -> bool) -> Option<Reached> {
+    fn cheapest_after(
+        &self,
+        p: DVec2,
+        leaving: DVec2,
+        admitted: impl Fn(f64, u32) -> bool,
+    ) -> Option<Reached> {
         let limit = self.settings.reach * self.settings.reach;
         let mut nearest = f64::INFINITY;
-        let mut best = Reached { point: p, cost: f64::INFINITY, candidate: 0 };
+        let mut best = Reached { point: p, arriving: leaving, cost: f64::INFINITY, candidate: 0 };
         self.reached.for_each_near(p, |start| {
             let squared = start.point.distance_squared(p);
             nearest = nearest.min(squared);
-            let cost = start.cost + squared;
+            let mut cost = start.cost + squared;
+            if cost <= best.cost && squared <= limit {
+                cost +=
+                    self.settings.sharp * f64::from(sharp_turns(start.arriving, p - start.point, leaving));
+            }
             if cost <= best.cost && squared <= limit {
                 let better = cost < best.cost || start.candidate < best.candidate;
                 if better && admitted(cost, start.candidate) {

@@ -1,6 +1,6 @@
 //! Which steps from layer to layer are allowed.
 
-use argil_curve::{ClosedCurve, Segment, SegmentIndex};
+use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex};
 
 /// A step and a strand nearer than this touch, mm: twice the grid of the printed output, so that rounding
 /// both to the grid cannot make them cross.
@@ -12,8 +12,28 @@ const ON_STRAND: f64 = 1e-9;
 /// The arc may be longer than the straight way by this and still count as running straight along it, mm.
 const STRAIGHT: f64 = 1e-3;
 
-/// Whether the step that ends on `cycle` at arc length `s` is clear of every segment of the cycle; O(n).
-pub(crate) fn is_clear(step: &Segment, s: f64, cycle: &ClosedCurve) -> bool {
+/// Cosine of the turn from which on it is sharp, 130°: a little less than the 135° that prints are measured by.
+const SHARP: f64 = -0.642_787_609_686_539_3;
+
+/// A step shorter than this has no direction, mm: both its ends are one point of the printed output.
+const NO_STEP: f64 = 1e-4;
+
+/// How many sharp turns a step brings, for a walk that comes to it in one direction and leaves it in another (unit
+/// vectors).
+pub(crate) fn sharp_turns(arriving: DVec2, step: DVec2, leaving: DVec2) -> u8 {
+    let length = step.length();
+    if length < NO_STEP {
+        return u8::from(arriving.dot(leaving) < SHARP);
+    }
+    u8::from(arriving.dot(step) < SHARP * length) + u8::from(step.dot(leaving) < SHARP * length)
+}
+
+/// Whether the step that ends on `cycle` at arc length `s` is clear of every segment of the cycle: it touches it nowhere but at its
+/// own end, or where it runs straight along the strand that it ends on.
+///
+/// # Complexity
+/// O(n) for n segments.
+pub fn is_clear(step: &Segment, s: f64, cycle: &ClosedCurve) -> bool {
     let low = step.start.min(step.end) - TOUCH;
     let high = step.start.max(step.end) + TOUCH;
     step.length() <= ON_STRAND
@@ -57,7 +77,6 @@ fn blocks(step: &Segment, s: f64, cycle: &ClosedCurve, k: usize, strand: &Segmen
 #[cfg(test)]
 mod tests {
     use super::*;
-    use argil_curve::DVec2;
 
     fn clear(from: (f64, f64), s: f64) -> bool {
         // A hairpin 1 mm wide: out along y = 0, back along y = 1.
@@ -68,6 +87,13 @@ mod tests {
         let answer = is_clear(&step, s, &cycle);
         assert_eq!(answer, is_clear_by(&index, &step, s, &cycle));
         answer
+    }
+
+    #[test]
+    fn a_step_back_turns_twice() {
+        let turns = |step| sharp_turns(DVec2::X, step, DVec2::X);
+        assert_eq!((turns(DVec2::X), turns(DVec2::Y), turns(-DVec2::X), turns(DVec2::ZERO)), (0, 0, 2, 0));
+        assert_eq!(sharp_turns(DVec2::X, DVec2::ZERO, -DVec2::X), 1);
     }
 
     #[test]

@@ -143,7 +143,7 @@ proptest! {
 
     #[test]
     fn every_chain_is_sound_and_no_greedy_one_is_cheaper(cycles in stack(), firsts in proptest::array::uniform8(0_usize..1000), side in 0.0..TAU, weight in prop_oneof![Just(0.0), 0.0..0.2]) {
-        let settings = SeamSettings::for_width(1.5);
+        let settings = SeamSettings { sharp: 0.0, ..SeamSettings::for_width(1.5) };
         let extra = |_: usize, p: DVec2| weight * (1.0 - (p.to_angle() - side).cos());
         let found = seam_chain(&cycles, &settings, &extra);
         let greedy_costs: Vec<f64> = firsts.iter().map(|&first| chain_cost(&cycles, &greedy(&cycles, &settings, first), &settings, Rule::Strict, extra)).collect();
@@ -165,7 +165,7 @@ proptest! {
 
     #[test]
     fn no_chain_is_cheaper(cycles in stack(), spacing in 0.3..0.8, reach in 0.4..1.5, weight in prop_oneof![Just(0.0), 0.0..0.2]) {
-        let settings = SeamSettings { spacing, reach, ..SeamSettings::for_width(1.5) };
+        let settings = SeamSettings { spacing, reach, sharp: 0.0, ..SeamSettings::for_width(1.5) };
         let cycles = &cycles[..cycles.len().min(6)];
         let extra = |layer: usize, p: DVec2| weight * (p.x + 0.3 * layer as f64).sin().abs();
         let least = least_cost(cycles, &settings, Rule::MayTouch, extra);
@@ -180,6 +180,17 @@ proptest! {
     }
 
     #[test]
+    fn a_price_on_sharp_turns_never_brings_more_of_them(cycles in stack()) {
+        let free = SeamSettings { sharp: 0.0, ..SeamSettings::for_width(1.5) };
+        let plain = seam_chain(&cycles, &free, &|_, _| 0.0);
+        let smooth = seam_chain(&cycles, &SeamSettings { sharp: 1.0, ..free }, &|_, _| 0.0);
+        prop_assert_eq!(plain.is_ok(), smooth.is_ok());
+        if let (Ok(plain), Ok(smooth)) = (plain, smooth) {
+            prop_assert!(sharp_turns(&cycles, &smooth) <= sharp_turns(&cycles, &plain));
+        }
+    }
+
+    #[test]
     fn the_greedy_rule_takes_nearest_points(cycles in stack()) {
         let starts = nearest_chain(&cycles);
         prop_assert_eq!(starts[starts.len() - 1], 0.0);
@@ -188,6 +199,58 @@ proptest! {
             let step = above.distance(cycles[k - 1].point_at(starts[k - 1]));
             prop_assert!((step - cycles[k - 1].nearest(above).distance).abs() < 1e-9);
         }
+    }
+}
+
+/// Turns by more than 130° where layers end and begin.
+fn sharp_turns(cycles: &[ClosedCurve], starts: &[f64]) -> usize {
+    let mut walk: Vec<(DVec2, DVec2, DVec2)> = Vec::new();
+    for (cycle, &start) in cycles.iter().zip(starts) {
+        let loop_ = cycle.rotated_to(start);
+        let points = loop_.points();
+        walk.push((points[points.len() - 1], points[0], points[1]));
+    }
+    let is_sharp = |a: DVec2, b: DVec2| a.length() > 1e-6 && a.angle_to(b).abs().to_degrees() > 130.0;
+    walk.windows(2)
+        .map(|pair| {
+            let ((before, end, _), (_, begin, after)) = (pair[0], pair[1]);
+            let step = begin - end;
+            if step.length() < 1e-4 {
+                return usize::from(is_sharp(end - before, after - begin));
+            }
+            usize::from(is_sharp(end - before, step)) + usize::from(is_sharp(step, after - begin))
+        })
+        .sum()
+}
+
+/// Along a hairpin that retracts, the chain walks out on the lane that leads out.
+#[test]
+fn a_chain_takes_the_lane_that_leads_its_way() {
+    let hairpin = |tip: f64| {
+        ClosedCurve::new([(0.0, 0.0), (tip, 0.0), (tip, 1.0), (0.0, 1.0)].map(DVec2::from).to_vec()).unwrap()
+    };
+    for mirrored in [false, true] {
+        let layers: Vec<ClosedCurve> = (0..12)
+            .map(|k| {
+                let curve = hairpin(2.0 + 0.9 * f64::from(k));
+                if !mirrored {
+                    return curve;
+                }
+                ClosedCurve::new(curve.points().iter().rev().copied().collect()).unwrap()
+            })
+            .collect();
+        let top = layers.len() - 1;
+        // The lowest layer begins at the foot, the highest at its tip.
+        let cost = |layer: usize, p: DVec2| match layer {
+            0 => p.x,
+            k if k == top => 20.0 - p.x,
+            _ => 0.0,
+        };
+        let settings = SeamSettings { reach: 1.5, ..SeamSettings::for_width(1.5) };
+        let starts = seam_chain(&layers, &settings, &cost).unwrap();
+        assert_eq!(sharp_turns(&layers, &starts), 0);
+        let free = seam_chain(&layers, &SeamSettings { sharp: 0.0, ..settings }, &cost).unwrap();
+        assert!(layers[top].point_at(free[top]).x > 5.0 && layers[top].point_at(starts[top]).x > 5.0);
     }
 }
 

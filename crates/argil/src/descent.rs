@@ -7,6 +7,7 @@ use argil_elastic::{Carrier, Clearance, Path};
 use argil_route::{Cycle, Demand, LayerInput, Leg, Wall};
 use argil_slice::Layer;
 use argil_support::SupportPoint;
+use argil_taut::SlackPath;
 use geo_types::MultiPolygon;
 
 use crate::blunt::blunted;
@@ -14,7 +15,7 @@ use crate::clearance::SafeguardField;
 use crate::error::LayerFault;
 use crate::foothold::{Foothold, foothold, hold_start};
 use crate::hold::{Check, Fault};
-use crate::stages::{Route, Smooth, Support};
+use crate::stages::{Route, Smooth, Support, Tauten};
 use crate::{LayerReport, PlanError, Progress, Settings, StageTimes};
 
 /// A layer that is planned.
@@ -25,22 +26,23 @@ pub(crate) struct PlannedLayer {
     pub(crate) curve: ClosedCurve,
     pub(crate) legs: Vec<Leg>,
     pub(crate) supports: Vec<SupportPoint>,
-    /// A place where the layer may begin.
-    pub(crate) foothold: DVec2,
+    /// Arc length of a place where the layer may begin.
+    pub(crate) foothold: f64,
 }
 
 /// The stages that a descent uses, and what it has learnt so far.
-pub(crate) struct Descent<'a, U, R, E> {
+pub(crate) struct Descent<'a, U, R, E, T> {
     pub(crate) settings: &'a Settings,
     pub(crate) support: &'a mut U,
     pub(crate) route: &'a mut R,
     pub(crate) smooth: &'a mut E,
+    pub(crate) taut: &'a mut T,
     pub(crate) times: &'a mut StageTimes,
     /// Whether every layer must pass the exact check.
     pub(crate) checked: bool,
 }
 
-impl<U: Support, R: Route, E: Smooth> Descent<'_, U, R, E> {
+impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
     /// Plans all layers, the top one first; the result is bottom first. `walls` are those of the layers. Layers above the first wall from the top
     /// have nothing to print; below it, every layer has at least something to hold.
     pub(crate) fn run(
@@ -52,7 +54,7 @@ impl<U: Support, R: Route, E: Smooth> Descent<'_, U, R, E> {
     ) -> Result<Vec<PlannedLayer>, PlanError> {
         let mut planned: Vec<PlannedLayer> = Vec::with_capacity(layers.len());
         let walls_of = |k: usize| SegmentIndex::of_curves(&walls[k], self.settings.width);
-        let mut start = None;
+        let mut start: Option<Foothold> = None;
         for (k, (layer, safeguard)) in layers.iter().zip(safeguards).enumerate().rev() {
             let above = planned.last().map(|p| &p.curve);
             if above.is_none() && layer.walls.is_empty() {
@@ -63,10 +65,10 @@ impl<U: Support, R: Route, E: Smooth> Descent<'_, U, R, E> {
                 PlanError::Layer { layer: layer.index, near: at.or(near).unwrap_or_default(), fault }
             })?;
             let below = k.checked_sub(1).map_or_else(|| SegmentIndex::new(Vec::new(), 1.0), walls_of);
-            let from = above.zip(start.map(|s: Foothold| s.at));
-            let place = foothold(&done.curve, from, &below, &self.settings.seaming());
+            let from = above.zip(start);
+            let place = foothold(&done.curve, from, [&walls_of(k), &below], &self.settings.seaming());
             start = Some(place);
-            planned.push(PlannedLayer { foothold: place.at, ..done });
+            planned.push(PlannedLayer { foothold: place.arc, ..done });
             observe(Progress::Layer { index: layer.index });
         }
         planned.reverse();
@@ -90,9 +92,7 @@ impl<U: Support, R: Route, E: Smooth> Descent<'_, U, R, E> {
         let mut supports = timed(&mut self.times.support, || {
             above.map_or_else(Vec::new, |above| support.points(above, &wall_index, settings))
         });
-        if let Some(start) = start {
-            hold_start(start, &mut supports, &settings.support());
-        }
+        let guide = start.and_then(|start| hold_start(start, &mut supports, settings));
         let demands: Vec<Demand> =
             supports.iter().map(|s| Demand { position: s.position, anchors: s.needs.clone() }).collect();
 
@@ -105,10 +105,27 @@ impl<U: Support, R: Route, E: Smooth> Descent<'_, U, R, E> {
         let candidate = timed(&mut self.times.route, || route.cycle(&input, settings))
             .map_err(|fault| (fault.into(), None))?;
 
-        let (mut cycle, pulled_back) = self.smoothed(&candidate, &supports, &field, curves, above)?;
         let check =
             Check { above, criterion: settings.criterion(), width: settings.width, grid: settings.grid };
-        timed(&mut self.times.check, || {
+        let felt = outside(&candidate, curves);
+        let (points, pulled_back) = self.smoothed(&candidate, &supports, (&field, &felt), &check)?;
+        let mut fixed = candidate.fixed.clone();
+        candidate.carriers.iter().filter(|c| Some(c.1) == guide).for_each(|c| fixed[c.0] = true);
+        let slack = SlackPath {
+            points: &points,
+            fixed: &fixed,
+            above,
+            starts: &start.map(|s| s.at).into_iter().collect::<Vec<_>>(),
+            walls: &wall_index,
+            clear_of: Some(&|p| field.distance(p).0),
+            felt: &felt,
+        };
+        let taut = &mut self.taut;
+        let mut taut = timed(&mut self.times.taut, || taut.points(&slack, settings));
+        let cycle = timed(&mut self.times.check, || {
+            check.rounded(&mut taut, &candidate.fixed);
+            let points = if self.checked && check.fault(&taut).is_some() { points } else { taut };
+            let mut cycle = Cycle { points, ..candidate };
             for _ in 0..3 {
                 let Some(mut next) = blunted(&cycle, settings.width) else { break };
                 check.rounded(&mut next.points, &next.fixed);
@@ -117,6 +134,7 @@ impl<U: Support, R: Route, E: Smooth> Descent<'_, U, R, E> {
                 }
                 cycle = next;
             }
+            cycle
         });
         for (vertex, demand) in &cycle.carriers {
             debug_assert!(*vertex < cycle.points.len() && *demand < supports.len());
@@ -132,8 +150,7 @@ impl<U: Support, R: Route, E: Smooth> Descent<'_, U, R, E> {
         };
         let (points, legs) = without_repeats(&cycle);
         let curve = ClosedCurve::new(points).map_err(|e| (e.into(), None))?;
-        let foothold = curve.points()[0];
-        Ok(PlannedLayer { report, z: layer.print_z, curve, legs, supports, foothold })
+        Ok(PlannedLayer { report, z: layer.print_z, curve, legs, supports, foothold: 0.0 })
     }
 
     /// The smoothed candidate, repaired until it holds the cycle above, and how many vertices that pulled back.
@@ -141,10 +158,9 @@ impl<U: Support, R: Route, E: Smooth> Descent<'_, U, R, E> {
         &mut self,
         candidate: &Cycle,
         supports: &[SupportPoint],
-        field: &SafeguardField,
-        curves: &[ClosedCurve],
-        above: Option<&ClosedCurve>,
-    ) -> Result<(Cycle, usize), (LayerFault, Option<DVec2>)> {
+        (field, felt): (&SafeguardField, &[bool]),
+        check: &Check<'_>,
+    ) -> Result<(Vec<DVec2>, usize), (LayerFault, Option<DVec2>)> {
         let settings = self.settings;
         let envelope = settings.envelope();
         let carriers: Vec<Carrier> = candidate
@@ -157,26 +173,17 @@ impl<U: Support, R: Route, E: Smooth> Descent<'_, U, R, E> {
             // One that starts out on the rim has no room; the check after smoothing looks after it.
             .filter(|c| candidate.points[c.vertex].distance(c.anchor) < 0.98 * envelope)
             .collect();
-        let outer: Vec<&ClosedCurve> = curves.iter().filter(|c| c.signed_area() > 0.0).collect();
-        let felt: Vec<bool> = candidate
-            .points
-            .iter()
-            .zip(&candidate.fixed)
-            .map(|(&p, fixed)| !fixed && !outer.iter().any(|c| c.contains(p)))
-            .collect();
         let clear_of: &dyn Clearance = field;
         let path = Path {
             points: &candidate.points,
             fixed: &candidate.fixed,
             carriers: &carriers,
             clear_of: Some(clear_of),
-            felt: &felt,
+            felt,
         };
         let smooth = &mut self.smooth;
         let mut points = timed(&mut self.times.smooth, || smooth.points(&path, settings))
             .map_err(|fault| (fault.into(), None))?;
-        let check =
-            Check { above, criterion: settings.criterion(), width: settings.width, grid: settings.grid };
         let pulled_back = timed(&mut self.times.check, || {
             if self.checked {
                 check.repair(&mut points, &candidate.points, &candidate.fixed)
@@ -189,8 +196,15 @@ impl<U: Support, R: Route, E: Smooth> Descent<'_, U, R, E> {
             Fault::Unsupported { at, length } => (LayerFault::Unsupported { length }, at.first().copied()),
             Fault::Crossing { at } => (LayerFault::Crossing, at.first().copied()),
         })?;
-        Ok((Cycle { points, ..candidate.clone() }, pulled_back))
+        Ok((points, pulled_back))
     }
+}
+
+/// Which free vertices lie outside of all walls, where strand must clear what stands further down.
+fn outside(candidate: &Cycle, curves: &[ClosedCurve]) -> Vec<bool> {
+    let outer: Vec<&ClosedCurve> = curves.iter().filter(|c| c.signed_area() > 0.0).collect();
+    let free = candidate.points.iter().zip(&candidate.fixed);
+    free.map(|(&p, fixed)| !fixed && !outer.iter().any(|c| c.contains(p))).collect()
 }
 
 /// The walls of a layer as curves.

@@ -46,6 +46,7 @@ pub use argil_seam as seam;
 pub use argil_slice as slice;
 pub use argil_strand as strand;
 pub use argil_support as support;
+pub use argil_taut as taut;
 
 pub use error::{LayerFault, PlanError};
 pub use plan::{LayerReport, Plan, StageTimes};

@@ -31,6 +31,7 @@
 //!     support: literal::StrideSupport,
 //!     route: own.route,
 //!     smooth: own.smooth,
+//!     taut: own.taut,
 //!     seam: own.seam,
 //!     checked: false,
 //! };
@@ -50,7 +51,7 @@ pub use starts::NearestStarts;
 pub use support::StrideSupport;
 
 use crate::Planner;
-use crate::stages::{PlaneSlices, SlopedSafeguard};
+use crate::stages::{LeftSlack, PlaneSlices, SlopedSafeguard};
 
 /// A planner whose stages follow the paper.
 ///
@@ -65,14 +66,22 @@ use crate::stages::{PlaneSlices, SlopedSafeguard};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[must_use]
-pub fn planner()
--> Planner<PlaneSlices, SlopedSafeguard, StrideSupport, SplicedRoute, LiteralElastic, NearestStarts> {
+pub fn planner() -> Planner<
+    PlaneSlices,
+    SlopedSafeguard,
+    StrideSupport,
+    SplicedRoute,
+    LiteralElastic,
+    LeftSlack,
+    NearestStarts,
+> {
     Planner {
         slice: PlaneSlices,
         safeguard: SlopedSafeguard,
         support: StrideSupport,
         route: SplicedRoute,
         smooth: LiteralElastic,
+        taut: LeftSlack,
         seam: NearestStarts,
         checked: false,
     }

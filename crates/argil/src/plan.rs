@@ -51,6 +51,8 @@ pub struct StageTimes {
     pub route: Duration,
     /// The elastic curve.
     pub smooth: Duration,
+    /// Taking out the slack.
+    pub taut: Duration,
     /// Checks, repairs and blunting.
     pub check: Duration,
     /// The chain of starts and the strand.
@@ -60,13 +62,14 @@ pub struct StageTimes {
 impl StageTimes {
     /// Names and durations in the order of the stages.
     #[must_use]
-    pub fn listed(&self) -> [(&'static str, Duration); 7] {
+    pub fn listed(&self) -> [(&'static str, Duration); 8] {
         [
             ("slice", self.slice),
             ("safeguard", self.safeguard),
             ("support", self.support),
             ("route", self.route),
             ("smooth", self.smooth),
+            ("taut", self.taut),
             ("check", self.check),
             ("seam", self.seam),
         ]

@@ -6,8 +6,8 @@ use argil_slice::{Layer, outer_walls};
 use crate::climb::strand;
 use crate::descent::{Descent, timed, wall_curves};
 use crate::stages::{
-    BestChain, ElasticCurve, Excursions, FewestPoints, PlaneSlices, Route, Safeguard, Seam, Slice,
-    SlopedSafeguard, Smooth, Support,
+    BestChain, ElasticCurve, Excursions, FewestPoints, PlaneSlices, PulledTaut, Route, Safeguard, Seam,
+    Slice, SlopedSafeguard, Smooth, Support, Tauten,
 };
 use crate::{Plan, PlanError, Settings, StageTimes};
 
@@ -49,6 +49,7 @@ pub struct Planner<
     U = FewestPoints,
     R = Excursions,
     E = ElasticCurve,
+    T = PulledTaut,
     C = BestChain,
 > {
     /// Mesh to layers.
@@ -61,6 +62,8 @@ pub struct Planner<
     pub route: R,
     /// A cycle to a shorter, smoother one.
     pub smooth: E,
+    /// A sound cycle to one without slack.
+    pub taut: T,
     /// Cycles to their starts.
     pub seam: C,
     /// Whether every layer must pass the exact check: it crosses itself nowhere and holds the layer above. Without it the
@@ -76,13 +79,16 @@ impl Default for Planner {
             support: FewestPoints,
             route: Excursions,
             smooth: ElasticCurve::default(),
+            taut: PulledTaut,
             seam: BestChain,
             checked: true,
         }
     }
 }
 
-impl<S: Slice, G: Safeguard, U: Support, R: Route, E: Smooth, C: Seam> Planner<S, G, U, R, E, C> {
+impl<S: Slice, G: Safeguard, U: Support, R: Route, E: Smooth, T: Tauten, C: Seam>
+    Planner<S, G, U, R, E, T, C>
+{
     /// The layers of a mesh.
     ///
     /// # Errors
@@ -143,6 +149,7 @@ impl<S: Slice, G: Safeguard, U: Support, R: Route, E: Smooth, C: Seam> Planner<S
             support: &mut self.support,
             route: &mut self.route,
             smooth: &mut self.smooth,
+            taut: &mut self.taut,
             times: &mut times,
             checked: self.checked,
         }

@@ -6,6 +6,7 @@ use argil_safeguard::SafeguardSettings;
 use argil_seam::SeamSettings;
 use argil_slice::SliceSettings;
 use argil_support::{Criterion, Placement};
+use argil_taut::TautOptions;
 
 use crate::PlanError;
 
@@ -59,9 +60,10 @@ const ENVELOPE: f64 = 0.65;
 /// How much of the envelope demands may use up when they are moved before smoothing.
 const SLACK: f64 = 0.9;
 
-/// `α_l` of Eq. 2. With the paper's 0.9 strands die slowly: 0.7 left an eighth to a fifth less of them (gargoyle 0.55 to
-/// 0.48, thinker 0.31 to 0.24 of the model's length). What that alone does to contact with the walls was not measured.
-const TENSION: f64 = 0.7;
+/// `α_l` of Eq. 2. With the paper's 0.9 strands die slowly, and lanes that a lower one draws together are parted again when the path
+/// is pulled taut. Strand beside the model at 0.7, 0.5 and 0.3: gargoyle 0.47, 0.44, 0.42, thinker 0.22, 0.20, 0.19, bunny
+/// 0.39, 0.38, 0.36 of the model's length.
+const TENSION: f64 = 0.3;
 
 /// `μ_bend` of Eq. 3 in w². Less than the elastic stage's own 0.133, which suits the paper's tension: softer tips retract
 /// faster. It saved a twentieth to a tenth on two models of three and cost as much on the third.
@@ -157,6 +159,13 @@ impl Settings {
             bend: STIFFNESS,
             ..ElasticOptions::for_width(self.width)
         }
+    }
+
+    /// What the tautening stage gets.
+    #[must_use]
+    pub fn tautening(&self) -> TautOptions {
+        let Criterion { across, along } = self.criterion();
+        TautOptions { across, along, ..TautOptions::for_width(self.width) }
     }
 
     /// What the seam stage gets.

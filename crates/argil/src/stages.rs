@@ -10,6 +10,7 @@ use argil_route::{Cycle, LayerInput, RouteError, Router};
 use argil_seam::{SeamError, SeamSettings};
 use argil_slice::{Layer, SliceError};
 use argil_support::SupportPoint;
+use argil_taut::{SlackPath, pulled_taut};
 use geo_types::MultiPolygon;
 
 use crate::Settings;
@@ -54,15 +55,24 @@ pub trait Smooth {
     fn points(&mut self, path: &Path<'_>, settings: &Settings) -> Result<Vec<DVec2>, ElasticError>;
 }
 
+/// Takes the slack out of a cycle that is sound.
+pub trait Tauten {
+    /// As many points as the path has, fixed ones unchanged. What the planner cannot use, since it crosses itself or
+    /// holds too little, it leaves.
+    fn points(&mut self, path: &SlackPath<'_>, settings: &Settings) -> Vec<DVec2>;
+}
+
 /// Chooses where each layer begins.
 pub trait Seam {
-    /// The arc of the start on each cycle, bottom first.
+    /// The arc of the start on each cycle, bottom first. `footholds` are the arcs of a chain that was kept open while the
+    /// layers were planned, one a cycle.
     ///
     /// # Errors
     /// When two layers cannot be joined by a short, held step.
     fn starts(
         &mut self,
         cycles: &[ClosedCurve],
+        footholds: &[f64],
         settings: &Settings,
         cost: &dyn Fn(usize, DVec2) -> f64,
     ) -> Result<Vec<f64>, SeamError>;
@@ -125,6 +135,26 @@ impl Smooth for ElasticCurve {
     }
 }
 
+/// As short as the exact rule of support allows ([`argil_taut`]).
+#[derive(Clone, Copy, Debug, Default)]
+pub struct PulledTaut;
+
+impl Tauten for PulledTaut {
+    fn points(&mut self, path: &SlackPath<'_>, settings: &Settings) -> Vec<DVec2> {
+        pulled_taut(path, &settings.tautening())
+    }
+}
+
+/// Leaves the path as it is.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct LeftSlack;
+
+impl Tauten for LeftSlack {
+    fn points(&mut self, path: &SlackPath<'_>, _: &Settings) -> Vec<DVec2> {
+        path.points.to_vec()
+    }
+}
+
 /// The best chain of starts over all layers ([`argil_seam`]).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct BestChain;
@@ -133,17 +163,14 @@ impl Seam for BestChain {
     fn starts(
         &mut self,
         cycles: &[ClosedCurve],
+        footholds: &[f64],
         settings: &Settings,
         cost: &dyn Fn(usize, DVec2) -> f64,
     ) -> Result<Vec<f64>, SeamError> {
         let usual = settings.seaming();
-        let chain = |reach: f64, fineness: f64| {
-            let seam =
-                SeamSettings { reach: reach * usual.reach, spacing: usual.spacing / fineness, ..usual };
-            argil_seam::seam_chain(cycles, &seam, cost)
-        };
-        // Most prints have a chain of steps half as long as they may be, and short steps show less. Where strand dies on a wall
-        // the one way up may be narrow: a chain that is not found is looked for more finely.
-        chain(0.5, 1.0).or_else(|_| chain(0.5, 4.0)).or_else(|_| chain(1.0, 1.0)).or_else(|_| chain(1.0, 4.0))
+        // Most prints have a chain of steps half as long as they may be, and short steps show less.
+        let short = SeamSettings { reach: 0.5 * usual.reach, ..usual };
+        argil_seam::seam_chain_among(cycles, footholds, &short, cost)
+            .or_else(|_| argil_seam::seam_chain_among(cycles, footholds, &usual, cost))
     }
 }

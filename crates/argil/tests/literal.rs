@@ -95,6 +95,7 @@ fn one_stage_at_a_time_can_be_put_back() {
         support: own.support,
         route: literal::SplicedRoute,
         smooth: own.smooth,
+        taut: own.taut,
         seam: own.seam,
         checked: false,
     };

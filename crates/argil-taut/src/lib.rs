@@ -1,0 +1,17 @@
+//! Paths pulled taut.
+//!
+//! A smoothed path keeps its points inside discs, which is a simple promise to keep while all of them move at once, and
+//! a cautious one: a strand may lie `ε_across` beside the one above where a disc grants two thirds of it, and may hang
+//! free over `ε_along` wherever it likes. Here the points move one at a time, each a little towards the chord of
+//! its neighbours, for as long as the exact rule of support (DESIGN 3.1) still holds. Tips retract up to half as far again a
+//! layer, and strand that is not there need not be held by the layers below.
+#![forbid(unsafe_code)]
+
+mod clearing;
+mod holding;
+mod options;
+mod pulling;
+
+pub use argil_curve::{ClosedCurve, DVec2, SegmentIndex};
+pub use options::TautOptions;
+pub use pulling::{SlackPath, pulled_taut};
