@@ -29,6 +29,7 @@ pub(crate) enum Command {
 const PLAN_EXAMPLES: &str = "Examples:
   argil plan vase.stl -o vase.gcode
   argil plan vase.stl -o vase.gcode --width 3 --layer-height 1 --height 120 --place center
+  argil plan sample:cup -o cup.gcode --preview cup.html
   argil plan sample:cup -o cup.gcode --svg layers --report cup.json
 
 Exit status: 0 done, 2 wrong usage, 3 bad input, 4 a plan with findings.";
@@ -92,6 +93,9 @@ pub(crate) struct PlanArgs {
     /// Write a picture of every layer, and an overview, into this folder.
     #[arg(long, value_name = "DIR")]
     pub(crate) svg: Option<PathBuf>,
+    /// Write a page for the browser that shows the beads in space, and the findings of the audit.
+    #[arg(long, value_name = "OUT.html")]
+    pub(crate) preview: Option<PathBuf>,
     /// Write an overview picture.
     #[arg(long, value_name = "OUT.png")]
     pub(crate) png: Option<PathBuf>,
@@ -105,8 +109,7 @@ pub(crate) struct PlanArgs {
     /// Do not measure the finished g-code.
     #[arg(long)]
     pub(crate) no_audit: bool,
-    /// How many threads to use: the audit runs beside the drawing of pictures; planning uses one so far. The result is
-    /// the same for any number.
+    /// How many threads to use. The result is the same for any number.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) threads: u16,
 }

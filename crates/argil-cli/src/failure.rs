@@ -24,6 +24,9 @@ pub(crate) enum Failure {
     Plan { name: String, source: argil::PlanError },
     /// The result cannot be written as g-code or a picture.
     Output { what: &'static str, source: Box<dyn std::error::Error> },
+    /// The threads that were asked for cannot be had.
+    #[cfg(feature = "rayon")]
+    Threads { threads: usize, source: rayon::ThreadPoolBuildError },
 }
 
 impl Failure {
@@ -74,6 +77,8 @@ impl fmt::Display for Failure {
             Self::Option { option, source } => write!(f, "{option}: {source}"),
             Self::Plan { name, source } => write!(f, "{name}: {source}"),
             Self::Output { what, source } => write!(f, "the {what} cannot be written: {source}"),
+            #[cfg(feature = "rayon")]
+            Self::Threads { threads, source } => write!(f, "{threads} threads cannot be had: {source}"),
         }
     }
 }

@@ -13,6 +13,7 @@ use argil_preview::{SvgStyle, ViewStyle, layer_svg, overview_svg, png};
 use crate::args::PlanArgs;
 use crate::audit_command::measure;
 use crate::failure::{FINDINGS, Failure};
+use crate::preview_page::preview_page;
 use crate::progress::PlanBar;
 use crate::report::{PlanReport, cleaning, is_finding, summary};
 use crate::{input, output};
@@ -23,16 +24,21 @@ const PICTURE: u32 = 1600;
 /// Plans a model and writes everything that was asked for.
 pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
     let settings = input::settings(&args.bead)?;
-    let files = [Some(&args.output), args.report.as_ref(), args.strand.as_ref(), args.png.as_ref()];
-    files.into_iter().flatten().try_for_each(|path| output::check(path))?;
+    let files = [&args.report, &args.strand, &args.png, &args.preview].map(Option::as_ref);
+    files.into_iter().chain([Some(&args.output)]).flatten().try_for_each(|path| output::check(path))?;
     let mesh = input::model(&args.model, args.place)?;
-    let plan = plan(&mesh, &settings, args.paper_exact)
-        .map_err(|source| Failure::Plan { name: args.model.clone(), source })?;
+    let plan =
+        plan(&mesh, &settings, args)?.map_err(|source| Failure::Plan { name: args.model.clone(), source })?;
 
-    let gcode = write_gcode(&plan.strand, &gcode_settings(args, &settings))
+    let written = gcode_settings(args, &settings);
+    let gcode = write_gcode(&plan.strand, &written)
         .map_err(|source| Failure::Output { what: "g-code", source: Box::new(source) })?;
     let audit = audited_and_drawn(args, &plan, &gcode, &mesh, &settings)?;
     output::write(&args.output, gcode.as_bytes())?;
+    if let Some(path) = &args.preview {
+        let page = preview_page(&args.model, &settings, &written, &plan, audit.as_ref());
+        output::write(path, page.as_bytes())?;
+    }
     if let Some(path) = &args.strand {
         output::write(path, &json(&plan.strand)?)?;
     }
@@ -56,16 +62,33 @@ pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
     Ok(if findings { ExitCode::from(FINDINGS) } else { ExitCode::SUCCESS })
 }
 
-fn plan(mesh: &Mesh, settings: &Settings, paper_exact: bool) -> Result<Plan, PlanError> {
+/// The plan, or why there is none; fails by itself only if no threads can be had.
+fn plan(mesh: &Mesh, settings: &Settings, args: &PlanArgs) -> Result<Result<Plan, PlanError>, Failure> {
     let bar = PlanBar::new();
-    let mut follow = |progress| bar.follow(progress);
-    let plan = if paper_exact {
-        literal::planner().plan_observed(mesh, settings, &mut follow)
-    } else {
-        Planner::default().plan_observed(mesh, settings, &mut follow)
+    let work = || {
+        let mut follow = |progress| bar.follow(progress);
+        if args.paper_exact {
+            literal::planner().plan_observed(mesh, settings, &mut follow)
+        } else {
+            Planner::default().plan_observed(mesh, settings, &mut follow)
+        }
     };
+    let plan = with_threads(usize::from(args.threads), work)?;
     bar.finish();
-    plan
+    Ok(plan)
+}
+
+/// Runs a piece of work that may spread over this many threads.
+#[cfg(feature = "rayon")]
+fn with_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    Ok(pool.map_err(|source| Failure::Threads { threads, source })?.install(work))
+}
+
+/// Runs a piece of work; without the feature `rayon` there is one thread for it.
+#[cfg(not(feature = "rayon"))]
+fn with_threads<T>(_: usize, work: impl FnOnce() -> T) -> Result<T, Failure> {
+    Ok(work())
 }
 
 fn gcode_settings(args: &PlanArgs, settings: &Settings) -> GcodeSettings {

@@ -69,8 +69,9 @@ fn loss(loss: &Loss) -> LossReport {
     let (kind, measure) = match *loss {
         Loss::OpenOutline { length, .. } => ("open outline, mm left out", length),
         Loss::Thin { area, .. } => ("thinner than a bead, mm²", area),
+        Loss::Narrow { length, .. } => ("part thinner than a bead, mm of its middle line", length),
         Loss::Vanished { area, .. } => ("too small to print, mm²", area),
-        Loss::Branch { area, .. } => ("branch thinner than a bead, mm²", area),
+        Loss::Branch { area, .. } => ("part not reached by a bead, mm²", area),
         Loss::Unsound { length, .. } => ("wall left out, mm", length),
         _ => ("other", 0.0),
     };

@@ -94,15 +94,14 @@ fn clear_start(
         .unwrap_or(wanted)
 }
 
-/// Whether the step from `from` to an opened cycle crosses none of its stretches.
+/// Whether the step from `from` to an opened cycle crosses none of its stretches, and neither do the two that meet in
+/// its beginning: cut in two on the grid, a stretch that touches a wall may cross it.
 fn is_clear(from: DVec2, (begin, moves): &(DVec2, Vec<Move>)) -> bool {
+    let ends = std::iter::once(*begin).chain(moves.iter().map(|m| m.to));
+    let stretches: Vec<Segment> = ends.zip(moves).map(|(start, m)| Segment::new(start, m.to)).collect();
     let step = Segment::new(from, *begin);
-    let mut at = *begin;
-    moves.iter().all(|m| {
-        let stretch = Segment::new(at, m.to);
-        at = m.to;
-        !stretch.crosses(&step)
-    })
+    let around = [Some(&step), stretches.first(), stretches.last()];
+    around.into_iter().flatten().all(|near| !stretches.iter().any(|stretch| stretch.crosses(near)))
 }
 
 /// Where the strand of a layer leaves and joins walls.
