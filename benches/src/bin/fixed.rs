@@ -57,7 +57,8 @@ fn elastic() -> Result<(), Box<dyn Error>> {
     let made = Excursions::new(4, 1);
     let carriers: Vec<Carrier> =
         made.carriers.iter().map(|&(vertex, anchor)| Carrier { vertex, anchor }).collect();
-    let path = Path { points: &made.points, fixed: &made.fixed, carriers: &carriers, clear_of: None, felt: &[] };
+    let path =
+        Path { points: &made.points, fixed: &made.fixed, carriers: &carriers, clear_of: None, felt: &[] };
     black_box(ElasticSolver::new().relax(&path, &ElasticOptions::for_width(WIDTH))?);
     Ok(())
 }

@@ -83,7 +83,10 @@ impl Clearing<'_> {
         }
         if rooted {
             let keep = TOUCH * self.apart;
-            return self.walls.nearest_within(to, keep).is_none_or(|near| near.distance >= self.walls.distance(from));
+            return self
+                .walls
+                .nearest_within(to, keep)
+                .is_none_or(|near| near.distance >= self.walls.distance(from));
         }
         let now = self.gap(new);
         now >= self.off || now >= self.gap(old) - 1e-9 * self.apart

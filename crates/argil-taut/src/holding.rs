@@ -47,7 +47,8 @@ impl Holding {
         let held = held_spans(above, walls, across);
         let (mut samples, mut runs, mut run_of) = (Vec::new(), Vec::new(), Vec::new());
         for gap in gaps(above.length(), &held) {
-            if gap.length <= options.used * options.along && !starts.iter().any(|&p| lies_in(above, &gap, p)) {
+            if gap.length <= options.used * options.along && !starts.iter().any(|&p| lies_in(above, &gap, p))
+            {
                 continue;
             }
             let count = (gap.length / step).ceil().clamp(1.0, 1e6) as usize;

@@ -25,7 +25,16 @@ impl TautOptions {
     /// The options that serve clay at a bead width.
     #[must_use]
     pub fn for_width(width: f64) -> Self {
-        Self { width, across: 0.3 * width, along: 1.6 * width, used: 0.985, sweeps: 30, apart: 1.0, off: 1.0, root: 4.0 / 3.0 }
+        Self {
+            width,
+            across: 0.3 * width,
+            along: 1.6 * width,
+            used: 0.985,
+            sweeps: 30,
+            apart: 1.0,
+            off: 1.0,
+            root: 4.0 / 3.0,
+        }
     }
 
     /// Whether every value can be worked with.

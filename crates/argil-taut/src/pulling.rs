@@ -50,7 +50,10 @@ impl std::fmt::Debug for SlackPath<'_> {
 pub fn pulled_taut(path: &SlackPath<'_>, options: &TautOptions) -> Vec<DVec2> {
     let mut points = path.points.to_vec();
     let n = points.len();
-    let usable = options.is_usable() && path.fixed.len() == n && path.felt.len() == n && points.iter().all(|p| p.is_finite());
+    let usable = options.is_usable()
+        && path.fixed.len() == n
+        && path.felt.len() == n
+        && points.iter().all(|p| p.is_finite());
     let free: Vec<usize> = (0..n).filter(|&k| usable && n > 3 && !path.fixed[k]).collect();
     if free.is_empty() {
         return points;

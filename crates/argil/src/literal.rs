@@ -66,8 +66,15 @@ use crate::stages::{LeftSlack, PlaneSlices, SlopedSafeguard};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[must_use]
-pub fn planner()
--> Planner<PlaneSlices, SlopedSafeguard, StrideSupport, SplicedRoute, LiteralElastic, LeftSlack, NearestStarts> {
+pub fn planner() -> Planner<
+    PlaneSlices,
+    SlopedSafeguard,
+    StrideSupport,
+    SplicedRoute,
+    LiteralElastic,
+    LeftSlack,
+    NearestStarts,
+> {
     Planner {
         slice: PlaneSlices,
         safeguard: SlopedSafeguard,

@@ -6,8 +6,8 @@ use argil_slice::{Layer, outer_walls};
 use crate::climb::strand;
 use crate::descent::{Descent, timed, wall_curves};
 use crate::stages::{
-    BestChain, ElasticCurve, Excursions, FewestPoints, PlaneSlices, PulledTaut, Route, Safeguard, Seam, Slice,
-    SlopedSafeguard, Smooth, Support, Tauten,
+    BestChain, ElasticCurve, Excursions, FewestPoints, PlaneSlices, PulledTaut, Route, Safeguard, Seam,
+    Slice, SlopedSafeguard, Smooth, Support, Tauten,
 };
 use crate::{Plan, PlanError, Settings, StageTimes};
 
@@ -86,7 +86,9 @@ impl Default for Planner {
     }
 }
 
-impl<S: Slice, G: Safeguard, U: Support, R: Route, E: Smooth, T: Tauten, C: Seam> Planner<S, G, U, R, E, T, C> {
+impl<S: Slice, G: Safeguard, U: Support, R: Route, E: Smooth, T: Tauten, C: Seam>
+    Planner<S, G, U, R, E, T, C>
+{
     /// The layers of a mesh.
     ///
     /// # Errors
