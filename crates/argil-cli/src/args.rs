@@ -29,6 +29,7 @@ pub(crate) enum Command {
 const PLAN_EXAMPLES: &str = "Examples:
   argil plan vase.stl -o vase.gcode
   argil plan vase.stl -o vase.gcode --width 3 --layer-height 1 --height 120 --place center
+  argil plan sample:cup -o cup.gcode --preview cup.html
   argil plan sample:cup -o cup.gcode --svg layers --report cup.json
 
 Exit status: 0 done, 2 wrong usage, 3 bad input, 4 a plan with findings.";
@@ -92,6 +93,9 @@ pub(crate) struct PlanArgs {
     /// Write a picture of every layer, and an overview, into this folder.
     #[arg(long, value_name = "DIR")]
     pub(crate) svg: Option<PathBuf>,
+    /// Write a page for the browser that shows the beads in space, and the findings of the audit.
+    #[arg(long, value_name = "OUT.html")]
+    pub(crate) preview: Option<PathBuf>,
     /// Write an overview picture.
     #[arg(long, value_name = "OUT.png")]
     pub(crate) png: Option<PathBuf>,
@@ -118,6 +122,9 @@ pub(crate) struct AuditArgs {
     /// The model that it was made from: an STL file, or sample:NAME.
     #[arg(long, value_name = "MODEL")]
     pub(crate) model: String,
+    /// Bead width that the tolerances of the audit are meant for, in mm [default: the bead's width].
+    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
+    pub(crate) tolerance_width: Option<f64>,
     /// Write the figures as JSON.
     #[arg(long, value_name = "OUT.json")]
     pub(crate) json: Option<PathBuf>,

@@ -11,6 +11,7 @@ mod failure;
 mod input;
 mod output;
 mod plan_command;
+mod preview_page;
 mod progress;
 mod report;
 mod samples_command;

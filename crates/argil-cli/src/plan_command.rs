@@ -13,8 +13,9 @@ use argil_preview::{SvgStyle, ViewStyle, layer_svg, overview_svg, png};
 use crate::args::PlanArgs;
 use crate::audit_command::measure;
 use crate::failure::{FINDINGS, Failure};
+use crate::preview_page::preview_page;
 use crate::progress::PlanBar;
-use crate::report::{PlanReport, is_finding, summary};
+use crate::report::{PlanReport, cleaning, is_finding, summary};
 use crate::{input, output};
 
 /// Longest side of the overview picture, pixels.
@@ -23,16 +24,21 @@ const PICTURE: u32 = 1600;
 /// Plans a model and writes everything that was asked for.
 pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
     let settings = input::settings(&args.bead)?;
-    let files = [Some(&args.output), args.report.as_ref(), args.strand.as_ref(), args.png.as_ref()];
-    files.into_iter().flatten().try_for_each(|path| output::check(path))?;
+    let files = [&args.report, &args.strand, &args.png, &args.preview].map(Option::as_ref);
+    files.into_iter().chain([Some(&args.output)]).flatten().try_for_each(|path| output::check(path))?;
     let mesh = input::model(&args.model, args.place)?;
     let plan =
         plan(&mesh, &settings, args)?.map_err(|source| Failure::Plan { name: args.model.clone(), source })?;
 
-    let gcode = write_gcode(&plan.strand, &gcode_settings(args, &settings))
+    let written = gcode_settings(args, &settings);
+    let gcode = write_gcode(&plan.strand, &written)
         .map_err(|source| Failure::Output { what: "g-code", source: Box::new(source) })?;
     let audit = audited_and_drawn(args, &plan, &gcode, &mesh, &settings)?;
     output::write(&args.output, gcode.as_bytes())?;
+    if let Some(path) = &args.preview {
+        let page = preview_page(&args.model, &settings, &written, &plan, audit.as_ref());
+        output::write(path, page.as_bytes())?;
+    }
     if let Some(path) = &args.strand {
         output::write(path, &json(&plan.strand)?)?;
     }
@@ -44,6 +50,7 @@ pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
     let mut findings = plan.losses.iter().any(is_finding);
     if let Some(report) = &audit {
         findings |= !report.is_sound();
+        eprintln!("{}", cleaning(report));
         let short = report.falls_short();
         if short.is_empty() {
             eprintln!("audit: sound");

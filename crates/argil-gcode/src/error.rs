@@ -1,5 +1,7 @@
 //! What can keep a strand from becoming g-code.
 
+use crate::Flavour;
+
 /// Why no g-code was written.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -13,6 +15,14 @@ pub enum GcodeError {
         value: f64,
         /// What is accepted.
         must_be: &'static str,
+    },
+    /// The firmware lacks what a setting asks for.
+    #[error("{flavour} has no {lacks}")]
+    Dialect {
+        /// The firmware.
+        flavour: Flavour,
+        /// What it lacks.
+        lacks: &'static str,
     },
     /// A header key or a role name that viewers would take for something else.
     #[error("{text:?} cannot stand in a comment: {why}")]

@@ -27,6 +27,11 @@ impl Grid {
         (steps.abs() < EXACT).then_some(steps as i64)
     }
 
+    /// A length in steps, not rounded.
+    pub(crate) fn units(self, value: f64) -> f64 {
+        value * self.per_unit
+    }
+
     /// The number as text.
     pub(crate) fn text(self, steps: i64) -> Decimal {
         Decimal { steps, decimals: self.decimals }

@@ -1,8 +1,8 @@
 //! What the writer must be told about machine, paste and viewer.
 
-use argil_strand::{BeadShape, Role};
+use argil_strand::{BeadShape, Role, Strand};
 
-use crate::GcodeError;
+use crate::{Extrusion, Flavour, GcodeError};
 
 /// Volume in mm³ of one mm of filament of 1.75 mm, the unit of E that most firmwares and viewers assume.
 ///
@@ -106,6 +106,15 @@ pub struct GcodeSettings {
     /// Paste in mm³ that one unit of E pushes out. Default [`FILAMENT_1_75`]. Machines differ: 6.38 for a filament
     /// of 2.85 mm, 1 under volumetric E, the plunger's cross-section where E is its travel.
     pub mm3_per_e: f64,
+    /// The firmware, for what not every one can do. Default Marlin.
+    pub flavour: Flavour,
+    /// How paste is asked for. Default by E in units of `mm3_per_e`.
+    pub extrusion: Extrusion,
+    /// Arcs (G2, G3) in place of short moves wherever both are nowhere farther apart than this, mm. Default `None`: every
+    /// move is straight, and what is written is what was checked.
+    pub arc_tolerance: Option<f64>,
+    /// Whether every line of code has a number and a checksum. Default false.
+    pub line_numbers: bool,
     /// Cross-section of a bead, for E. The default is rounded; the full rectangle lays 8 % more at 1.5 mm × 0.5 mm.
     pub bead: BeadShape,
     /// Speed while extruding, mm/s. Default 25, the middle of what clay printers' makers give (15 to 40).
@@ -121,6 +130,8 @@ pub struct GcodeSettings {
     pub generator: String,
     /// Lines `; key = value` at the top, in this order: the settings that the part was planned with.
     pub header: Vec<(String, String)>,
+    /// Lines of comment below the header, verbatim: a thumbnail. Each begins with `;`. Default none.
+    pub preface: Vec<String>,
     /// The vocabulary of `;TYPE:` comments.
     pub names: RoleNames,
     /// Machine code before everything else, verbatim: homing, priming, M302 P1 where firmware refuses to extrude
@@ -138,6 +149,10 @@ impl Default for GcodeSettings {
             e_decimals: None,
             relative_e: true,
             mm3_per_e: FILAMENT_1_75,
+            flavour: Flavour::default(),
+            extrusion: Extrusion::default(),
+            arc_tolerance: None,
+            line_numbers: false,
             bead: BeadShape::Rounded,
             feed: 25.0,
             first_layer_feed: 15.0,
@@ -145,6 +160,7 @@ impl Default for GcodeSettings {
             lift: 5.0,
             generator: format!("argil {}", env!("CARGO_PKG_VERSION")),
             header: Vec::new(),
+            preface: Vec::new(),
             names: RoleNames::default(),
             start: String::new(),
             end: String::new(),
@@ -153,6 +169,24 @@ impl Default for GcodeSettings {
 }
 
 impl GcodeSettings {
+    /// Paste in mm³ that one unit of E stands for in the file.
+    pub fn paste_per_e(&self) -> f64 {
+        match self.extrusion {
+            Extrusion::Volumetric { .. } => 1.0,
+            _ => self.mm3_per_e,
+        }
+    }
+
+    /// Speed on a layer, mm/s: as set, or what a constant rate of paste asks for. The layer is counted from the lowest;
+    /// above the uppermost the speed is that of other layers.
+    pub fn speed(&self, strand: &Strand, layer: usize) -> f64 {
+        match (self.extrusion, strand.layers().get(layer)) {
+            (Extrusion::Constant { rate }, Some(laid)) => rate / self.bead.area(laid.width, laid.height),
+            _ if layer == 0 => self.first_layer_feed,
+            _ => self.feed,
+        }
+    }
+
     /// Refuses numbers that cannot be written or would not extrude, and comments that would be read as others.
     pub(crate) fn check(&self) -> Result<(), GcodeError> {
         let within = |name, value: f64, low: f64, high: f64, must_be| {
@@ -163,6 +197,17 @@ impl GcodeSettings {
         within("e_decimals", f64::from(self.e_decimals.unwrap_or(5)), 0.0, 9.0, "at most 9")?;
         within("mm3_per_e", self.mm3_per_e, 1e-6, 1e6, "between 1e-6 and 1e6 mm³")?;
         within("lift", self.lift, 0.0, 1e6, "between 0 and 1e6 mm")?;
+        within("arc_tolerance", self.arc_tolerance.unwrap_or(0.0), 0.0, 1e3, "between 0 and 1000 mm")?;
+        match self.extrusion {
+            Extrusion::Units => {}
+            Extrusion::Volumetric { diameter } => {
+                within("diameter", diameter, 1e-3, 1e3, "between 0.001 and 1000 mm")?;
+                if !self.flavour.knows_volumetric() {
+                    return Err(GcodeError::Dialect { flavour: self.flavour, lacks: "volumetric E (M200)" });
+                }
+            }
+            Extrusion::Constant { rate } => within("rate", rate, 1e-3, 1e9, "between 0.001 and 1e9 mm³/s")?,
+        }
         for (name, value) in [
             ("feed", self.feed),
             ("first_layer_feed", self.first_layer_feed),
@@ -183,6 +228,12 @@ impl GcodeSettings {
                     text: key.clone(),
                     why: "it would be read as a new layer",
                 });
+            }
+        }
+        for line in &self.preface {
+            check_comment(line)?;
+            if !line.starts_with(';') {
+                return Err(GcodeError::Comment { text: line.clone(), why: "it does not begin with ;" });
             }
         }
         check_comment(&self.generator)?;

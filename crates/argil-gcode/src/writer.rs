@@ -2,10 +2,12 @@
 
 use std::fmt;
 
-use argil_strand::{Role, Step, Strand};
+use argil_strand::{Role, Strand};
 
+use crate::dialect::Numbered;
 use crate::number::Grid;
-use crate::{GcodeError, GcodeSettings};
+use crate::pen::Pen;
+use crate::{Extrusion, GcodeError, GcodeSettings};
 
 /// Units of E that one grid step of the thinnest bead shall be worth when the decimals of E are left to the writer:
 /// with two, a move that rounding made half as long as it was still extrudes.
@@ -33,10 +35,10 @@ const E_DECIMALS: u8 = 5;
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Gcode<'a> {
-    strand: &'a Strand,
-    settings: &'a GcodeSettings,
-    grid: Grid,
-    e_grid: Grid,
+    pub(crate) strand: &'a Strand,
+    pub(crate) settings: &'a GcodeSettings,
+    pub(crate) grid: Grid,
+    pub(crate) e_grid: Grid,
 }
 
 /// Writes a strand as g-code in one string; see [`Gcode`] for writing it piece by piece.
@@ -93,7 +95,7 @@ impl<'a> Gcode<'a> {
         for value in [strand.start().x, strand.start().y] {
             grid.step(value).ok_or(GcodeError::OutOfRange { layer: 0, value, decimals: grid.decimals() })?;
         }
-        let total = strand.volume_as(settings.bead) / settings.mm3_per_e;
+        let total = strand.volume_as(settings.bead) / settings.paste_per_e();
         e_grid.step(total).ok_or(GcodeError::OutOfRange {
             layer: strand.layers().len() - 1,
             value: total,
@@ -108,16 +110,23 @@ impl<'a> Gcode<'a> {
         for (key, value) in &settings.header {
             writeln!(f, "; {key} = {value}")?;
         }
+        settings.preface.iter().try_for_each(|line| writeln!(f, "{line}"))?;
         writeln!(f, ";LAYER_COUNT:{}", self.strand.layers().len())?;
         verbatim(f, &settings.start)?;
         // G90 stands before M83, since Marlin and Cura let G90 set E absolute as well.
+        writeln!(f, "G21 ; millimetres\nG90 ; absolute coordinates")?;
         let mode = if settings.relative_e { "M83" } else { "M82" };
-        writeln!(f, "G21 ; millimetres\nG90 ; absolute coordinates\n{mode} ; E\nG92 E0")
+        match settings.extrusion {
+            Extrusion::Units => writeln!(f, "{mode} ; E\nG92 E0"),
+            Extrusion::Volumetric { diameter } => {
+                let diameter = Grid::new(3).step(diameter).map_or(0, |steps| steps.max(1));
+                writeln!(f, "M200 D{} ; E is in mm³\n{mode} ; E\nG92 E0", Grid::new(3).text(diameter))
+            }
+            Extrusion::Constant { .. } => Ok(()),
+        }
     }
-}
 
-impl fmt::Display for Gcode<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    fn plain(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.header(f)?;
         let mut pen = Pen::new(self, f);
         let mut steps = self.strand.steps().peekable();
@@ -134,108 +143,28 @@ impl fmt::Display for Gcode<'_> {
             pen.lay(&step, closes || step.role == Role::Seam)?;
         }
         pen.leave()?;
+        if matches!(self.settings.extrusion, Extrusion::Volumetric { .. }) {
+            writeln!(f, "M200 D0")?;
+        }
         verbatim(f, &self.settings.end)
     }
 }
 
-/// Where the nozzle is on the grid, and what has been pushed out.
-struct Pen<'p, 'f> {
-    gcode: &'p Gcode<'p>,
-    out: &'p mut fmt::Formatter<'f>,
-    at: [i64; 3],
-    /// E that the strand so far is worth, exactly.
-    due: f64,
-    /// E written so far, in steps of the E grid.
-    paid: i64,
-    /// E at the last G92, for absolute E.
-    zero: i64,
-    role: Option<Role>,
-    feed: Option<i64>,
+/// The file before its lines are numbered.
+struct Plain<'g>(&'g Gcode<'g>);
+
+impl fmt::Display for Plain<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.plain(f)
+    }
 }
 
-impl<'p, 'f> Pen<'p, 'f> {
-    fn new(gcode: &'p Gcode<'p>, out: &'p mut fmt::Formatter<'f>) -> Self {
-        Self { gcode, out, at: [0; 3], due: 0.0, paid: 0, zero: 0, role: None, feed: None }
-    }
-
-    /// The point on the grid; `Gcode::new` has seen that it exists.
-    fn on_grid(&self, point: [f64; 3]) -> [i64; 3] {
-        point.map(|value| self.gcode.grid.step(value).unwrap_or(0))
-    }
-
-    /// Speed in mm/min on a grid of three decimals, when it differs from that of the move before.
-    fn feed(&mut self, mm_per_s: f64) -> fmt::Result {
-        let grid = Grid::new(3);
-        let steps = grid.step(mm_per_s * 60.0);
-        if steps != self.feed {
-            self.feed = steps;
-            write!(self.out, " F{}", grid.text(steps.unwrap_or(0)))?;
+impl fmt::Display for Gcode<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.settings.line_numbers {
+            return Numbered(&Plain(self).to_string()).fmt(f);
         }
-        Ok(())
-    }
-
-    /// The only moves without E: above the bed, over to the start, down to it.
-    fn approach(&mut self, start: [f64; 3]) -> fmt::Result {
-        let (grid, settings) = (self.gcode.grid, self.gcode.settings);
-        self.at = self.on_grid(start);
-        let [x, y, z] = self.at.map(|steps| grid.text(steps));
-        let above = grid.text(self.on_grid([0.0, 0.0, start[2] + settings.lift])[2]);
-        write!(self.out, "G1 Z{above}")?;
-        self.feed(settings.approach_feed)?;
-        writeln!(self.out, "\nG1 X{x} Y{y}\nG1 Z{z}")
-    }
-
-    fn open_layer(&mut self, position: usize) -> fmt::Result {
-        let layer = &self.gcode.strand.layers()[position];
-        let [z, height, width] =
-            self.on_grid([layer.z, layer.height, layer.width]).map(|s| self.gcode.grid.text(s));
-        writeln!(
-            self.out,
-            ";LAYER_CHANGE\n;Z:{z}\n;HEIGHT:{height}\n;LAYER:{}\n;WIDTH:{width}",
-            layer.index
-        )?;
-        if !self.gcode.settings.relative_e && position > 0 {
-            self.zero = self.paid;
-            writeln!(self.out, "G92 E0")?;
-        }
-        Ok(())
-    }
-
-    /// Lays a step, or passes over its end where grid or E cannot tell it from where the nozzle is. What it is worth
-    /// is then owed to the next move. A cycle's ends must be met (`exactly`), so that it stays closed.
-    fn lay(&mut self, step: &Step, exactly: bool) -> fmt::Result {
-        let (grid, e_grid, settings) = (self.gcode.grid, self.gcode.e_grid, self.gcode.settings);
-        let layer = &self.gcode.strand.layers()[step.layer];
-        self.due += step.length() * settings.bead.area(layer.width, layer.height) / settings.mm3_per_e;
-        let to = self.on_grid(step.to.to_array());
-        let owed = e_grid.step(self.due).unwrap_or(self.paid) - self.paid;
-        if to == self.at || (owed < 1 && !exactly) {
-            return Ok(());
-        }
-        if self.role != Some(step.role) {
-            self.role = Some(step.role);
-            writeln!(self.out, ";TYPE:{}", settings.names.name(step.role))?;
-        }
-        let pushed = owed.max(1);
-        self.paid += pushed;
-        write!(self.out, "G1 X{} Y{}", grid.text(to[0]), grid.text(to[1]))?;
-        if to[2] != self.at[2] {
-            write!(self.out, " Z{}", grid.text(to[2]))?;
-        }
-        let e = if settings.relative_e { pushed } else { self.paid - self.zero };
-        write!(self.out, " E{}", e_grid.text(e))?;
-        self.feed(if step.layer == 0 { settings.first_layer_feed } else { settings.feed })?;
-        self.at = to;
-        writeln!(self.out)
-    }
-
-    /// Straight up from the last point.
-    fn leave(&mut self) -> fmt::Result {
-        let (grid, settings) = (self.gcode.grid, self.gcode.settings);
-        let lift = grid.step(settings.lift).unwrap_or(0);
-        write!(self.out, "G1 Z{}", grid.text(self.at[2].saturating_add(lift)))?;
-        self.feed(settings.approach_feed)?;
-        writeln!(self.out)
+        self.plain(f)
     }
 }
 
@@ -243,7 +172,7 @@ impl<'p, 'f> Pen<'p, 'f> {
 fn e_decimals(strand: &Strand, settings: &GcodeSettings) -> u8 {
     let area = |layer: &argil_strand::StrandLayer| settings.bead.area(layer.width, layer.height);
     let thinnest = strand.layers().iter().map(area).fold(f64::INFINITY, f64::min);
-    let least = thinnest * 10f64.powi(-i32::from(settings.decimals)) / settings.mm3_per_e;
+    let least = thinnest * 10f64.powi(-i32::from(settings.decimals)) / settings.paste_per_e();
     (E_DECIMALS..9).find(|&decimals| least * 10f64.powi(i32::from(decimals)) >= UNITS_PER_STEP).unwrap_or(9)
 }
 

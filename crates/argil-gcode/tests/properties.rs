@@ -1,7 +1,9 @@
 //! What is written is what was planned, what is read is what was written, and no text stops the reader.
 #![allow(clippy::unwrap_used)]
 
-use argil_gcode::{Fault, GcodeError, GcodeSettings, RoleNames, read_gcode, write_gcode};
+use argil_gcode::{
+    Extrusion, Fault, Flavour, GcodeError, GcodeSettings, Poses, RoleNames, read_gcode, write_gcode,
+};
 use argil_strand::{BeadShape, DVec2, Move, Role, Strand, StrandLayer};
 use proptest::prelude::*;
 
@@ -242,4 +244,161 @@ fn layer_comments_are_read_in_every_form() {
     let layers: Vec<_> = program.moves.iter().map(|step| step.layer).collect();
     assert_eq!(layers, [Some(0), Some(7), Some(8), Some(8)]);
     assert_eq!(program.moves[2].line, 6);
+}
+
+/// Wavy rings with many points: runs of arcs, with corners between.
+fn waves() -> impl Strategy<Value = Strand> {
+    (3..9u32, 0.0..0.5f64, 40..200usize, 5.0..60.0f64).prop_map(|(lobes, depth, count, radius)| {
+        let at = |k: usize| {
+            let angle = std::f64::consts::TAU * (k % count) as f64 / count as f64;
+            DVec2::from_angle(angle) * radius * (1.0 + depth * (angle * f64::from(lobes)).sin().abs())
+        };
+        let roles = |k: usize| if k % 37 < 9 { Role::Support } else { Role::Wall };
+        let turn: Vec<Move> = (1..=count).map(|k| Move { to: at(k), role: roles(k) }).collect();
+        let layer = |k: usize| StrandLayer {
+            index: k,
+            z: 0.5 * (k as f64 + 1.0),
+            height: 0.5,
+            width: 1.5,
+            moves: (k > 0)
+                .then_some(Move { to: at(0), role: Role::Seam })
+                .into_iter()
+                .chain(turn.clone())
+                .collect(),
+            supports: vec![],
+        };
+        Strand::new(at(0), (0..2).map(layer).collect()).unwrap()
+    })
+}
+
+fn to_segment(p: [f64; 3], a: [f64; 3], b: [f64; 3]) -> f64 {
+    let (p, a, b) = (DVec2::new(p[0], p[1]), DVec2::new(a[0], a[1]), DVec2::new(b[0], b[1]));
+    let along = b - a;
+    let square = along.length_squared();
+    let t = if square > 0.0 { ((p - a).dot(along) / square).clamp(0.0, 1.0) } else { 0.0 };
+    p.distance(a + along * t)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 32, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn arcs_keep_to_their_tolerance_and_to_the_paste(strand in waves(), tolerance in 0.005..0.3f64, relative_e: bool) {
+        let settings = GcodeSettings { arc_tolerance: Some(tolerance), relative_e, ..GcodeSettings::default() };
+        let text = write_gcode(&strand, &settings).unwrap();
+        let program = read_gcode(&text);
+        prop_assert!(program.bad_lines.is_empty());
+        let paste = program.extruded() * settings.mm3_per_e;
+        prop_assert!((paste - strand.volume()).abs() < 1e-3 + 1e-9 * strand.volume());
+        // The reader's chords are within its own tolerance of the arcs.
+        let within = tolerance + argil_gcode::ARC_TOLERANCE + 3e-4;
+        let laid: Vec<_> = program.moves.iter().filter(|step| step.extruded > 0.0).collect();
+        let near = |p: [f64; 3]| laid.iter().any(|step| {
+            (step.to[2] - p[2]).abs() < 1e-6 && to_segment(p, step.from, step.to) <= within
+        });
+        prop_assert!(strand.steps().all(|step| near(step.to.to_array())));
+        let planned: Vec<_> = strand.steps().collect();
+        for step in &laid {
+            let close = planned.iter().any(|plan| {
+                let (from, to) = (plan.from.to_array(), plan.to.to_array());
+                (to[2] - step.to[2]).abs() < 1e-6 && to_segment(step.to, from, to) <= within
+            });
+            prop_assert!(close, "{:?}", step);
+            let word = program.kind_of(step).unwrap();
+            prop_assert!(settings.names.role(word).is_some());
+        }
+    }
+
+    #[test]
+    fn numbered_lines_read_as_the_bare_ones(strand in waves()) {
+        let bare = GcodeSettings { start: "G28 ; home".into(), ..GcodeSettings::default() };
+        let numbered = GcodeSettings { line_numbers: true, ..bare.clone() };
+        let text = write_gcode(&strand, &numbered).unwrap();
+        for line in text.lines().filter(|line| !line.starts_with(';')) {
+            let (code, sum) = line.rsplit_once('*').unwrap();
+            prop_assert_eq!(code.bytes().fold(0, |sum, byte| sum ^ byte), sum.parse::<u8>().unwrap());
+        }
+        let moves = |settings| -> Vec<_> {
+            let program = read_gcode(&write_gcode(&strand, settings).unwrap());
+            program.moves.iter().map(|step| (step.from, step.to, step.extruded, step.layer, step.kind)).collect()
+        };
+        prop_assert_eq!(moves(&bare), moves(&numbered));
+    }
+}
+
+#[test]
+fn a_ring_becomes_few_arcs() {
+    let count = 400;
+    let at = |k: usize| DVec2::from_angle(std::f64::consts::TAU * (k % count) as f64 / count as f64) * 30.0;
+    let moves = (1..=count).map(|k| Move { to: at(k), role: Role::Wall }).collect();
+    let layer = StrandLayer { index: 0, z: 0.5, height: 0.5, width: 1.5, moves, supports: vec![] };
+    let strand = Strand::new(at(0), vec![layer]).unwrap();
+    let settings = GcodeSettings { arc_tolerance: Some(0.02), ..GcodeSettings::default() };
+    let text = write_gcode(&strand, &settings).unwrap();
+    let arcs = text.lines().filter(|line| line.starts_with("G3 ")).count();
+    assert!((3..=5).contains(&arcs), "{arcs} arcs");
+}
+
+#[test]
+fn volumetric_e_is_the_volume_and_is_switched_off_again() {
+    let strand = square(8.0);
+    let settings = GcodeSettings {
+        extrusion: Extrusion::Volumetric { diameter: 1.75 },
+        end: "M84".into(),
+        ..GcodeSettings::default()
+    };
+    let text = write_gcode(&strand, &settings).unwrap();
+    assert!(text.contains("\nM200 D1.75 ") && text.ends_with("M200 D0\nM84\n"), "{text}");
+    assert!((read_gcode(&text).extruded() - strand.volume()).abs() < 1e-4);
+    let klipper = GcodeSettings { flavour: Flavour::Klipper, ..settings };
+    assert!(matches!(write_gcode(&strand, &klipper), Err(GcodeError::Dialect { .. })));
+}
+
+#[test]
+fn a_constant_rate_keeps_the_bead_by_speed_alone() {
+    let strand = square(8.0);
+    let settings = GcodeSettings {
+        extrusion: Extrusion::Constant { rate: 7.5 },
+        bead: BeadShape::Box,
+        ..GcodeSettings::default()
+    };
+    let text = write_gcode(&strand, &settings).unwrap();
+    assert!(text.contains("G1 X8 Y0 F600\nG1 X8 Y8\n"), "{text}");
+    assert!(
+        !text.contains('E') || text.lines().filter(|l| l.contains('E')).all(|l| l.starts_with(';')),
+        "{text}"
+    );
+}
+
+#[test]
+fn what_comes_before_the_strand_is_comment() {
+    let with = |line: &str| {
+        let settings = GcodeSettings { preface: vec![line.into()], ..GcodeSettings::default() };
+        write_gcode(&square(8.0), &settings)
+    };
+    assert!(with("; thumbnail begin 1x1 4").unwrap().contains("\n; thumbnail begin 1x1 4\n"));
+    for line in ["G28", ";a\nG28", ""] {
+        assert!(matches!(with(line), Err(GcodeError::Comment { .. })), "{line:?}");
+    }
+}
+
+#[test]
+fn poses_have_the_paste_of_the_strand() {
+    let strand = square(8.0);
+    let table = Poses::new(&strand, &GcodeSettings::default()).unwrap().to_string();
+    let mut rows = table.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let names = rows.next().unwrap();
+    let column = |row: &[&str], name: &str| -> f64 {
+        row[names.iter().position(|&other| other == name).unwrap()].parse().unwrap()
+    };
+    let rows: Vec<_> = rows.collect();
+    let paste: f64 = rows
+        .windows(2)
+        .map(|pair| {
+            let gone = |axis| column(&pair[1], axis) - column(&pair[0], axis);
+            let length = gone("x_mm").hypot(gone("y_mm")).hypot(gone("z_mm"));
+            length / column(&pair[1], "speed_mm_s") * column(&pair[1], "flow_mm3_s")
+        })
+        .sum();
+    assert!((paste - strand.volume()).abs() < 1e-3, "{paste}");
 }

@@ -1,10 +1,13 @@
 #![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
+mod base64;
 mod colour;
 mod layer;
 mod markup;
+mod outline;
 mod overview;
+mod page;
 mod projection;
 #[cfg(feature = "png")]
 mod raster;
@@ -13,5 +16,6 @@ mod simplify;
 pub use colour::{Colour, Palette};
 pub use layer::{SvgStyle, layer_svg};
 pub use overview::{ViewStyle, overview_svg};
+pub use page::{PageMark, PageStyle, page_html};
 #[cfg(feature = "png")]
 pub use raster::{PreviewError, png};

@@ -1,0 +1,96 @@
+//! The page that shows a plan: what it tells besides the strand.
+
+use argil::gcode::GcodeSettings;
+use argil::slice::Loss;
+use argil::strand::Role;
+use argil::{Plan, Settings};
+use argil_audit::{FindingKind, Report};
+use argil_preview::{PageMark, PageStyle, page_html};
+
+use crate::report::is_finding;
+
+/// The page of a plan, with the findings of its audit and the losses of its slicing.
+pub(crate) fn preview_page(
+    model: &str,
+    settings: &Settings,
+    gcode: &GcodeSettings,
+    plan: &Plan,
+    audit: Option<&Report>,
+) -> String {
+    let sound = audit.is_none_or(Report::is_sound);
+    let found = audit.into_iter().flat_map(|report| report.findings.iter().map(|f| finding(f, sound)));
+    let style = PageStyle {
+        title: format!("{} – argil", model.rsplit(['/', '\\']).next().unwrap_or(model)),
+        facts: facts(settings, plan, audit),
+        marks: found.chain(plan.losses.iter().map(loss)).collect(),
+        speeds: [gcode.first_layer_feed, gcode.feed],
+        ..PageStyle::default()
+    };
+    page_html(&plan.strand, &style)
+}
+
+fn facts(settings: &Settings, plan: &Plan, audit: Option<&Report>) -> Vec<(String, String)> {
+    let strand = &plan.strand;
+    let model = strand.length_of(Role::Wall) + strand.length_of(Role::Fill);
+    let beside = strand.length() - model;
+    let verdict = match audit {
+        None => "not made".to_owned(),
+        Some(report) if report.is_sound() => "sound".to_owned(),
+        Some(report) => {
+            let short = report.falls_short();
+            let names: Vec<String> = short.iter().map(|s| s.figure.replace('_', " ")).collect();
+            format!("short of {}", names.join(", "))
+        }
+    };
+    let facts = [
+        ("bead", format!("{} × {} mm", settings.width, settings.layer_height)),
+        ("paste", format!("{:.1} cm³", strand.volume() / 1e3)),
+        ("transfers", "0".to_owned()),
+        ("beside the model", format!("{:.1} % of its length", 100.0 * beside / model.max(1e-9))),
+        ("audit", verdict),
+    ];
+    facts.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
+}
+
+/// A finding of the audit. Sharp turns and contacts are no faults: they tell what to look at and what to clean. Nor is
+/// anything in a sound print, where what was found is within its limit.
+fn finding(finding: &argil_audit::Finding, sound: bool) -> PageMark {
+    use FindingKind::{
+        Contact, ManyPaths, Retraction, SelfCrossing, SharpTurn, UnreadableLine, WallCrossing,
+    };
+    let unit = match finding.kind {
+        UnreadableLine => "line",
+        ManyPaths => "paths",
+        SharpTurn => "°",
+        Retraction | SelfCrossing | WallCrossing => "",
+        _ => "mm",
+    };
+    PageMark {
+        kind: finding.kind.name().to_owned(),
+        fault: !sound && !matches!(finding.kind, Contact | SharpTurn),
+        layer: usize::try_from(finding.layer).unwrap_or(0),
+        at: finding.at,
+        measure: finding.measure,
+        unit: unit.to_owned(),
+    }
+}
+
+/// What of the model is not printed as it is.
+fn loss(loss: &Loss) -> PageMark {
+    let (kind, measure, unit) = match *loss {
+        Loss::OpenOutline { length, .. } => ("open outline left out", length, "mm"),
+        Loss::Thin { area, .. } => ("thinner than a bead", area, "mm²"),
+        Loss::Vanished { area, .. } => ("too small to print", area, "mm²"),
+        Loss::Branch { area, .. } => ("branch thinner than a bead", area, "mm²"),
+        Loss::Unsound { length, .. } => ("wall left out", length, "mm"),
+        _ => ("other loss", 0.0, ""),
+    };
+    PageMark {
+        kind: kind.to_owned(),
+        fault: is_finding(loss),
+        layer: loss.layer(),
+        at: Some([loss.at().x, loss.at().y].into()),
+        measure,
+        unit: unit.to_owned(),
+    }
+}
