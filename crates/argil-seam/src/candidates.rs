@@ -86,7 +86,8 @@ pub(crate) struct ReachedGrid {
 impl ReachedGrid {
     /// A grid over the candidates whose cost is finite, for queries of radius `reach` mm.
     pub(crate) fn over(candidates: &Candidates, costs: &[f64], reach: f64) -> Self {
-        let starts = || candidates.points.iter().zip(costs).enumerate().filter(|(_, (_, cost))| cost.is_finite());
+        let starts =
+            || candidates.points.iter().zip(costs).enumerate().filter(|(_, (_, cost))| cost.is_finite());
         let (mut low, mut high, mut count) = (DVec2::INFINITY, DVec2::NEG_INFINITY, 0);
         for (_, (&point, _)) in starts() {
             low = low.min(point);

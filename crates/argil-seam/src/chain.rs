@@ -39,10 +39,7 @@ impl SeamSettings {
             ("spacing", self.spacing, false),
             ("sharp", self.sharp, true),
         ];
-        match values
-            .into_iter()
-            .find(|&(_, x, zero)| !(x.is_finite() && (x > 0.0 || x == 0.0 && zero)))
-        {
+        match values.into_iter().find(|&(_, x, zero)| !(x.is_finite() && (x > 0.0 || x == 0.0 && zero))) {
             Some((name, value, _)) => Err(SeamError::Setting { name, value }),
             None => Ok(()),
         }

@@ -107,11 +107,13 @@ impl<'a> Plan<'a> {
         let Candidates { points, headings, .. } = &self.layers[layer].candidates;
         let mended: Vec<(f64, u32)> = stale
             .iter()
-            .map(|&k| match ascent.cheapest_where(points[k], headings[k].leaving, |start| {
-                self.is_sound(layer, k, start)
-            }) {
-                Some(best) => (best.cost + self.extra(layer, points[k]), best.candidate),
-                None => (f64::INFINITY, 0),
+            .map(|&k| {
+                match ascent
+                    .cheapest_where(points[k], headings[k].leaving, |start| self.is_sound(layer, k, start))
+                {
+                    Some(best) => (best.cost + self.extra(layer, points[k]), best.candidate),
+                    None => (f64::INFINITY, 0),
+                }
             })
             .collect();
         let here = &mut self.layers[layer];
@@ -218,12 +220,19 @@ impl<'a> Ascent<'a> {
     fn cheapest_where(&self, p: DVec2, leaving: DVec2, sound: impl Fn(DVec2) -> bool) -> Option<Reached> {
         let mut best = self.cheapest(p, leaving);
         while let Some(next) = best.filter(|next| !sound(next.point)) {
-            best = self.cheapest_after(p, leaving, |cost, candidate| (cost, candidate) > (next.cost, next.candidate));
+            best = self.cheapest_after(p, leaving, |cost, candidate| {
+                (cost, candidate) > (next.cost, next.candidate)
+            });
         }
         best
     }
 
-    fn cheapest_after(&self, p: DVec2, leaving: DVec2, admitted: impl Fn(f64, u32) -> bool) -> Option<Reached> {
+    fn cheapest_after(
+        &self,
+        p: DVec2,
+        leaving: DVec2,
+        admitted: impl Fn(f64, u32) -> bool,
+    ) -> Option<Reached> {
         let limit = self.settings.reach * self.settings.reach;
         let mut nearest = f64::INFINITY;
         let mut best = Reached { point: p, arriving: leaving, cost: f64::INFINITY, candidate: 0 };
@@ -232,7 +241,8 @@ impl<'a> Ascent<'a> {
             nearest = nearest.min(squared);
             let mut cost = start.cost + squared;
             if cost <= best.cost && squared <= limit {
-                cost += self.settings.sharp * f64::from(sharp_turns(start.arriving, p - start.point, leaving));
+                cost +=
+                    self.settings.sharp * f64::from(sharp_turns(start.arriving, p - start.point, leaving));
             }
             if cost <= best.cost && squared <= limit {
                 let better = cost < best.cost || start.candidate < best.candidate;
