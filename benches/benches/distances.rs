@@ -2,10 +2,8 @@
 
 use std::hint::black_box;
 
-use argil_benches::MixedLayer;
-use argil_graph::PathGraph;
+use argil_benches::{MixedLayer, by_heap, by_petgraph, petgraph_of};
 use criterion::{BatchSize, BenchmarkId, Criterion, criterion_group, criterion_main};
-use petgraph::graph::{NodeIndex, UnGraph};
 
 fn distances(c: &mut Criterion) {
     let mut group = c.benchmark_group("distances");
@@ -22,31 +20,16 @@ fn distances(c: &mut Criterion) {
             b.iter_batched(|| graph.clone(), |graph| graph.distances(&among), BatchSize::LargeInput);
         });
         if size <= 400 {
-            let other = without_attachments(&graph);
+            let other = petgraph_of(&graph);
             group.bench_with_input(BenchmarkId::new("petgraph", size), &other, |b, other| {
-                b.iter(|| {
-                    let from =
-                        |v: &u32| petgraph::algo::dijkstra(other, (*v).into(), None, |edge| *edge.weight());
-                    among.iter().map(from).map(|reached| reached.len()).sum::<usize>()
-                });
+                b.iter(|| by_petgraph(other, &among));
+            });
+            group.bench_with_input(BenchmarkId::new("heap", size), &graph, |b, graph| {
+                b.iter(|| by_heap(graph, &among));
             });
         }
     }
     group.finish();
-}
-
-/// The same graph for petgraph. Paths never pass attachments, and none begins there.
-fn without_attachments(graph: &PathGraph) -> UnGraph<(), f64> {
-    let mut other = UnGraph::with_capacity(graph.vertex_count(), graph.edge_count());
-    for _ in 0..graph.vertex_count() {
-        other.add_node(());
-    }
-    for (a, b, weight) in
-        graph.edges().filter(|edge| !graph.is_attachment(edge.0) && !graph.is_attachment(edge.1))
-    {
-        other.add_edge(NodeIndex::from(a), NodeIndex::from(b), weight);
-    }
-    other
 }
 
 criterion_group!(benches, distances);

@@ -5,12 +5,16 @@
 //! measures, `-- --test` after it runs each once. Lengths are in millimetres, the bead width is that of the paper.
 #![forbid(unsafe_code)]
 
+mod baseline;
 mod cycle;
+mod instance;
 mod layer;
 mod random;
 
 pub use argil_curve::DVec2;
+pub use baseline::{by_heap, by_petgraph, petgraph_of};
 pub use cycle::Excursions;
+pub use instance::Instance;
 pub use layer::MixedLayer;
 pub use random::SplitMix;
 

@@ -1,7 +1,11 @@
 //! The audit itself: every measure, layer by layer.
 
+use crate::coherence::Stretches;
+use crate::contact::Touch;
 use crate::cycle::{CycleStart, Path, cycle_start, layers};
+use crate::ledger::{ContactCause, Ledger};
 use crate::motion::{Motion, motions};
+use crate::section::Sections;
 use crate::settings::Tolerance;
 use crate::strand::{Piece, pieces};
 use crate::wanted::{Side, Wanted, segment_index};
@@ -10,7 +14,7 @@ use crate::{bead, contact, coverage, crossings, crowding, motion, passage, suppo
 use argil_curve::{DVec2, SegmentIndex};
 use argil_gcode::Program;
 use argil_slice::mesh::Mesh;
-use argil_slice::{SliceSettings, slice};
+use argil_slice::{Layer, SliceSettings, slice};
 use geo::{MultiPolygon, Translate};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -53,28 +57,35 @@ pub fn audit(program: &Program, mesh: &Mesh, settings: &AuditSettings) -> Result
 
     let mut audit = Audit {
         settings,
-        tolerance: Tolerance::for_width(settings.width),
+        tolerance: Tolerance::for_width(settings.tolerance_width),
         figures: Figures { mesh_layers: outlines.len(), ..Figures::default() },
         findings: unreadable_lines(program),
         tally: Tally::default(),
+        ledger: Ledger::default(),
         below: None,
     };
     audit.continuity(&motions, &printed);
     // One layer of the file for each of the mesh, and any more that the file has.
     let of_mesh = (0..outlines.len()).map(|n| lowest.saturating_add_unsigned(n as u64));
     let numbers: BTreeSet<i64> = of_mesh.chain(printed.keys().copied()).collect();
-    let empty = MultiPolygon::new(Vec::new());
+    let empty = Outline { plane: f64::NEG_INFINITY, region: MultiPolygon::new(Vec::new()) };
+    let mut sections = Sections::new(mesh);
     for number in numbers {
         let place = usize::try_from(number.saturating_sub(lowest)).ok();
         let outline = place.and_then(|n| outlines.get(n)).unwrap_or(&empty);
         let paths = printed.get(&number).map_or(&[][..], Vec::as_slice);
-        audit.layer(number, place, outline, paths)?;
+        let [dx, dy] = settings.offset;
+        let mut cuts = sections.at(outline.plane);
+        cuts.iter_mut().for_each(|cut| *cut += DVec2::new(dx, dy));
+        let wanted = Wanted::new(&outline.region, &cuts, settings, &audit.tolerance);
+        audit.layer(number, place, &wanted, paths)?;
     }
+    audit.close_below(None);
     Ok(audit.finished())
 }
 
 /// The model's outline on each layer, in the file's coordinates.
-fn outlines(mesh: &Mesh, settings: &AuditSettings) -> Result<Vec<MultiPolygon<f64>>, AuditError> {
+fn outlines(mesh: &Mesh, settings: &AuditSettings) -> Result<Vec<Outline>, AuditError> {
     // The slicer's own walls are none of the audit's business: it makes its own, in another way.
     let cuts = SliceSettings {
         layer_height: settings.layer_height,
@@ -84,7 +95,15 @@ fn outlines(mesh: &Mesh, settings: &AuditSettings) -> Result<Vec<MultiPolygon<f6
         ..SliceSettings::default()
     };
     let [dx, dy] = settings.offset;
-    Ok(slice(mesh, &cuts)?.into_iter().map(|layer| layer.outline.translate(dx, dy)).collect())
+    let outline = |layer: Layer| Outline { plane: layer.cut_z, region: layer.outline.translate(dx, dy) };
+    Ok(slice(mesh, &cuts)?.into_iter().map(outline).collect())
+}
+
+/// The model on a layer's plane.
+struct Outline {
+    /// Height of the plane, mm.
+    plane: f64,
+    region: MultiPolygon<f64>,
 }
 
 fn unreadable_lines(program: &Program) -> Vec<Finding> {
@@ -118,13 +137,28 @@ struct Tally {
     swept: f64,
     wall_laid: f64,
     wall_swept: f64,
+    followed: f64,
+    coherence: f64,
+    apart: f64,
+    jumped: f64,
 }
 
 /// The highest layer so far that has a path: what the next one stands on.
 #[derive(Debug)]
 struct Below {
+    number: i64,
     beads: SegmentIndex,
     end: DVec2,
+    free: Stretches,
+    touches: Vec<Touch>,
+}
+
+/// The layer over the one that is looked back on.
+struct Above<'a> {
+    number: i64,
+    wanted: &'a Wanted,
+    paths: &'a [Path],
+    pieces: &'a [Vec<Piece>],
 }
 
 #[derive(Debug)]
@@ -134,6 +168,7 @@ struct Audit<'a> {
     figures: Figures,
     findings: Vec<Finding>,
     tally: Tally,
+    ledger: Ledger,
     below: Option<Below>,
 }
 
@@ -160,24 +195,27 @@ impl Audit<'_> {
         &mut self,
         number: i64,
         place: Option<usize>,
-        outline: &MultiPolygon<f64>,
+        wanted: &Wanted,
         paths: &[Path],
     ) -> Result<(), AuditError> {
         let width = self.settings.width;
-        let wanted = Wanted::new(outline, self.settings, &self.tolerance);
-        self.affordable(&wanted, paths)?;
+        self.affordable(wanted, paths)?;
         if let (Some(place), false) = (place, wanted.walls.is_empty()) {
             self.figures.wanted_layers = self.figures.wanted_layers.max(place + 1);
         }
         let laid = segment_index(paths.iter().map(|path| path.points.as_slice()), width);
-        self.coverage(number, &wanted, &laid, paths.is_empty());
+        self.coverage(number, wanted, &laid, paths.is_empty());
         let Some(start) = cycle_start(paths, &self.tolerance) else { return Ok(()) };
 
-        for (k, path) in paths.iter().enumerate() {
+        let measured: Vec<Vec<Piece>> =
+            paths.iter().map(|path| pieces(path, wanted, self.settings.step, &self.tolerance)).collect();
+        let mut touches = Vec::new();
+        for (k, (path, pieces)) in paths.iter().zip(&measured).enumerate() {
             let whole = start.closed && paths.len() == 1;
             let step_up = if k == 0 { start.step_up } else { 0.0 };
-            self.path(number, path, &wanted, step_up, whole);
+            touches.append(&mut self.path(number, path, pieces, wanted, step_up, whole));
         }
+        self.close_below(Some(&Above { number, wanted, paths, pieces: &measured }));
         self.tally.wall_laid += wanted.wall_clay.0;
         self.tally.wall_swept += wanted.wall_clay.1;
         let crossings = crossings::crossings(paths, &start, &self.tolerance);
@@ -187,8 +225,38 @@ impl Audit<'_> {
         }
         let end = paths.last().and_then(|path| path.points.last()).copied().unwrap_or(start.at);
         self.seam(number, paths.len(), &start, end);
-        self.below = Some(Below { beads: laid, end });
+        let free =
+            Stretches::new(measured.iter().map(Vec::as_slice), |p| wanted.wall_at(p), self.settings.width);
+        self.below = Some(Below { number, beads: laid, end, free, touches });
         Ok(())
+    }
+
+    /// What can be said of a layer only when the next one up is known: how its strand follows, and why it touches.
+    fn close_below(&mut self, above: Option<&Above<'_>>) {
+        let AuditSettings { width, across, .. } = *self.settings;
+        let held = across + self.tolerance.held;
+        let Some(below) = &mut self.below else { return };
+        let number = below.number;
+        let mut touches = std::mem::take(&mut below.touches);
+        if let Some(above) = above.filter(|above| number.checked_add(1) == Some(above.number)) {
+            for touch in &mut touches {
+                let may_be = matches!(touch.cause, ContactCause::Passing | ContactCause::Narrow);
+                if may_be && touch.is_mostly(|p| above.wanted.has_wall_within(p, held)) {
+                    touch.cause = ContactCause::Overhang;
+                }
+            }
+            let pieces = above.pieces.iter().map(Vec::as_slice);
+            let lines = above.paths.iter().map(|path| path.points.as_slice());
+            let coherence = below.free.against(pieces, lines, held, width);
+            self.tally.followed += coherence.length;
+            self.tally.coherence += coherence.moment;
+            self.tally.apart += coherence.apart;
+            self.tally.jumped += coherence.jumped;
+            for (at, length) in coherence.jumps {
+                self.find(FindingKind::Jump, number, Some(at), length);
+            }
+        }
+        self.ledger.layer(number, touches, width);
     }
 
     /// A coordinate gone wrong must not fill the memory with samples.
@@ -213,19 +281,29 @@ impl Audit<'_> {
         if is_missing && coverage.wanted > 0.0 {
             self.find(FindingKind::MissingLayer, number, None, coverage.wanted);
         } else {
+            for (at, length) in coverage.bare {
+                self.find(FindingKind::BareOutline, number, Some(at), length);
+            }
             for (at, length) in coverage.stretches {
                 self.find(FindingKind::MissedWall, number, Some(at), length);
             }
         }
     }
 
-    /// Everything that is measured along one path.
-    fn path(&mut self, number: i64, path: &Path, wanted: &Wanted, step_up: f64, whole: bool) {
+    /// Everything that is measured along one path; what of it touches the model outside.
+    fn path(
+        &mut self,
+        number: i64,
+        path: &Path,
+        pieces: &[Piece],
+        wanted: &Wanted,
+        step_up: f64,
+        whole: bool,
+    ) -> Vec<Touch> {
         let AuditSettings { width, across, along, step, .. } = *self.settings;
         let t = self.tolerance;
-        let pieces = pieces(path, wanted, step, &t);
         if pieces.is_empty() {
-            return;
+            return Vec::new();
         }
         let sum =
             |of: &dyn Fn(&Piece) -> bool| -> f64 { pieces.iter().filter(|p| of(p)).map(|p| p.length).sum() };
@@ -236,7 +314,7 @@ impl Audit<'_> {
         self.figures.nonmodel_mm += sum(&|p| p.is_nonmodel());
         self.figures.inside_model_mm += sum(&|p| p.is_nonmodel() && p.side == Side::Inside);
 
-        let contact = contact::measure(&pieces, width, t.root);
+        let contact = contact::measure(pieces, wanted, width, t.root);
         self.tally.roots += contact.roots;
         self.tally.contact += contact.touching;
         self.tally.contact_outside += contact.outside;
@@ -244,21 +322,25 @@ impl Audit<'_> {
             self.find(FindingKind::Contact, number, Some(at), length);
         }
         let stride = (t.outline_step / step).round_ties_even().max(1.0) as usize;
-        self.tally.crowded += crowding::crowded(&pieces, &contact.apart, width, stride);
+        self.tally.crowded += crowding::crowded(pieces, &contact.apart, width, stride);
 
-        let passages = passage::passages(&pieces, t.passage);
+        let passages = passage::passages(pieces, t.passage);
         self.figures.wall_crossings += passages.len();
         for at in passages {
             self.find(FindingKind::WallCrossing, number, Some(at), 1.0);
         }
-        let turns = turns::sharp_turns(&path.points, wanted, &t);
-        self.figures.sharp_turns_nonmodel += turns.len();
-        for (at, angle) in turns {
+        let turns = turns::turns(&path.points, wanted, &t);
+        for (at, angle) in turns::sharp_turns(&turns) {
+            self.figures.sharp_turns_nonmodel += 1;
             self.find(FindingKind::SharpTurn, number, Some(at), angle);
+        }
+        for (at, angle) in turns::sharp_bends(&turns, width) {
+            self.figures.sharp_bends_nonmodel += 1;
+            self.find(FindingKind::SharpBend, number, Some(at), angle);
         }
         if let Some(below) = &self.below {
             let bridge = along + 2.0 * step;
-            let hanging = support::hanging(&pieces, &below.beads, across + t.held, bridge, step_up, whole);
+            let hanging = support::hanging(pieces, &below.beads, across + t.held, bridge, step_up, whole);
             self.figures.unsupported_spans += hanging.len();
             for (at, length) in hanging {
                 self.figures.unsupported_mm += length;
@@ -268,6 +350,7 @@ impl Audit<'_> {
         }
         self.tally.laid += all * width;
         self.tally.swept += bead::swept_area(&path.points, width);
+        contact.touches
     }
 
     /// How the layer closes and how it follows the one below.
@@ -293,7 +376,7 @@ impl Audit<'_> {
     }
 
     fn finished(self) -> Report {
-        let Self { settings, mut figures, findings, tally, .. } = self;
+        let Self { settings, mut figures, findings, tally, ledger, .. } = self;
         let share = |part: f64, whole: f64| part / whole.max(1e-9);
         figures.material_ratio = share(figures.nonmodel_mm, tally.wanted);
         figures.model_missed_fraction = share(tally.missed, tally.wanted);
@@ -306,7 +389,11 @@ impl Audit<'_> {
         figures.overdeposit_apart_from_roots = share(tally.crowded, figures.path_mm);
         figures.overdeposit = 1.0 - share(tally.swept, tally.laid);
         figures.overdeposit_of_bare_model = 1.0 - share(tally.wall_swept, tally.wall_laid);
-        Report { settings: *settings, figures, findings }
+        figures.coherence_mm = share(tally.coherence, tally.followed);
+        figures.coherence_widths = figures.coherence_mm / settings.width;
+        figures.apart_from_above_fraction = share(tally.apart, tally.followed);
+        figures.jumps_fraction = share(tally.jumped, tally.followed);
+        Report { settings: *settings, figures, findings, contacts: ledger.finished() }
     }
 }
 

@@ -1,6 +1,6 @@
 //! What the model asks for and what it got: wall paths without a bead, outline without clay.
 
-use crate::sampling::{Run, runs, samples};
+use crate::sampling::{runs, samples};
 use crate::settings::Tolerance;
 use crate::wanted::{Wanted, within};
 use argil_curve::{DVec2, SegmentIndex};
@@ -18,6 +18,8 @@ pub(crate) struct Coverage {
     pub(crate) missed_loops: usize,
     /// Middle and length of every stretch of wall path without a bead.
     pub(crate) stretches: Vec<(DVec2, f64)>,
+    /// The same of outline that no bead reaches, where that is more than a corner.
+    pub(crate) bare: Vec<(DVec2, f64)>,
 }
 
 /// Compares the wall paths and outlines of a layer with the beads laid in it.
@@ -31,16 +33,17 @@ pub(crate) fn measure(wanted: &Wanted, laid: &SegmentIndex, width: f64, t: &Tole
         coverage.wanted += samples.iter().map(|s| s.length).sum::<f64>();
         coverage.missed += missed;
         coverage.missed_loops += usize::from(missed > t.missed);
-        coverage.stretches.extend(found.iter().map(|&Run { middle, length }| (samples[middle].at, length)));
+        coverage.stretches.extend(found.iter().map(|run| (samples[run.middle].at, run.length)));
     }
     let reach = 0.5 * width + t.uncovered;
     for outline in &wanted.outlines {
-        for sample in samples(outline, t.outline_step) {
-            coverage.outline += sample.length;
-            if within(laid, sample.at, reach) == f64::INFINITY {
-                coverage.uncovered += sample.length;
-            }
-        }
+        let samples = samples(outline, t.outline_step);
+        let is_bare: Vec<bool> = samples.iter().map(|s| within(laid, s.at, reach) == f64::INFINITY).collect();
+        let found = runs(samples.len(), true, |k| is_bare[k], |k| samples[k].length);
+        coverage.outline += samples.iter().map(|s| s.length).sum::<f64>();
+        coverage.uncovered += found.iter().map(|run| run.length).sum::<f64>();
+        let more = found.iter().filter(|run| run.length > width);
+        coverage.bare.extend(more.map(|run| (samples[run.middle].at, run.length)));
     }
     coverage
 }

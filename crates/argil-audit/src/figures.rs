@@ -124,4 +124,16 @@ figures! {
     overdeposit_of_bare_model: Measure(f64),
     /// Turns of non-model strand by more than 135°.
     sharp_turns_nonmodel: Count(usize),
+    /// Places where non-model strand turns by more than 135° within half a bead of its length, at one vertex or
+    /// several.
+    sharp_bends_nonmodel: Count(usize),
+    /// Mean distance from the non-model strand of a layer to the nearest strand of any kind in the next layer up.
+    coherence_mm: Measure(f64),
+    /// The same in bead widths: strand that stands on itself like a wall has little of it.
+    coherence_widths: Measure(f64),
+    /// Share of the non-model strand below the last layer that is farther than one bead from all strand of the next.
+    apart_from_above_fraction: Measure(f64),
+    /// Of that share, what has no reason: its stretch, from wall to wall, holds nothing that the walls do not hold, and
+    /// joins no two walls.
+    jumps_fraction: Measure(f64),
 }

@@ -35,6 +35,14 @@ pub enum FindingKind {
     UnsupportedStart,
     /// A sharp turn of non-model strand; the measure is its angle in degrees.
     SharpTurn,
+    /// Turns of non-model strand that add up within half a bead; the measure is their angle in degrees.
+    SharpBend,
+    /// A stretch of outline longer than a bead that no bead reaches, since the model is thinner there; the measure is
+    /// its length, mm.
+    BareOutline,
+    /// A stretch of non-model strand that holds nothing, joins nothing and lies away from the strand above; the measure
+    /// is the length farther than one bead from that, mm.
+    Jump,
     /// Non-model strand that touches the wall from outside apart from its roots: a place to be cleaned. The
     /// measure is its length, mm.
     Contact,
@@ -58,6 +66,9 @@ impl FindingKind {
             Self::SeamGap => "seam gap",
             Self::UnsupportedStart => "unsupported start",
             Self::SharpTurn => "sharp turn",
+            Self::SharpBend => "sharp bend",
+            Self::BareOutline => "bare outline",
+            Self::Jump => "jump",
             Self::Contact => "contact",
         }
     }

@@ -4,12 +4,14 @@
 //! `motion` reads the moves and counts what breaks the strand, `cycle` makes paths of them and finds where
 //! each layer's cycle begins. `wanted` is what the model asks of a layer, `strand` the path sample by sample
 //! beside it. The measures follow, one a file: `coverage`, `support`, `crossings`, `passage`, `contact`,
-//! `crowding`, `bead`, `turns`; `audit` leads them through the layers and sums up. Terms are those of
-//! Sections 3.2 to 3.4 of the paper.
+//! `crowding`, `bead`, `turns`, `coherence`; `ledger` gathers contact over layers, `section` the corners of the
+//! mesh on a layer's plane; `audit` leads them through the layers and sums up. Terms are those of Sections 3.2 to
+//! 3.4 of the paper.
 #![forbid(unsafe_code)]
 
 mod audit;
 mod bead;
+mod coherence;
 mod contact;
 mod coverage;
 mod crossings;
@@ -18,11 +20,13 @@ mod cycle;
 mod error;
 mod figures;
 mod finding;
+mod ledger;
 mod motion;
 mod passage;
 mod region;
 mod report;
 mod sampling;
+mod section;
 mod settings;
 mod strand;
 mod support;
@@ -36,5 +40,6 @@ pub use audit::audit;
 pub use error::AuditError;
 pub use figures::{Amount, Figures};
 pub use finding::{Finding, FindingKind};
+pub use ledger::{ContactCause, ContactPlace};
 pub use report::{Report, Shortfall};
 pub use settings::AuditSettings;

@@ -1,7 +1,8 @@
 //! The report: figures, findings, and what they fall short of.
 
 use crate::settings::Tolerance;
-use crate::{Amount, AuditSettings, Figures, Finding, FindingKind};
+use crate::{Amount, AuditSettings, ContactCause, ContactPlace, Figures, Finding, FindingKind};
+use std::collections::BTreeMap;
 use std::fmt;
 
 /// How many findings of a kind the text shows.
@@ -19,6 +20,9 @@ pub struct Report {
     pub figures: Figures,
     /// Every fault and point of interest: those of the motion first, then layer by layer.
     pub findings: Vec<Finding>,
+    /// Every place where non-model strand touches the model outside, the lowest first: what to clean, and where roots
+    /// are to be cut.
+    pub contacts: Vec<ContactPlace>,
 }
 
 /// A figure that is not what it must be.
@@ -54,7 +58,7 @@ impl Report {
             ("unsupported_spans", count(f.unsupported_spans), 0.0),
             ("self_crossings", count(f.self_crossings), 0.0),
             ("wall_crossings", count(f.wall_crossings), 0.0),
-            ("seam_gap_max_mm", f.seam_gap_max_mm, Tolerance::for_width(self.settings.width).seam),
+            ("seam_gap_max_mm", f.seam_gap_max_mm, Tolerance::for_width(self.settings.tolerance_width).seam),
             ("seam_starts_unsupported", count(f.seam_starts_unsupported), 0.0),
         ];
         let mut short: Vec<Shortfall> = limits
@@ -75,6 +79,36 @@ impl Report {
         self.findings.iter().filter(move |finding| finding.kind == kind)
     }
 
+    /// Number and length in mm of the places of contact by cause, in the order of [`ContactCause`].
+    ///
+    /// [`ContactCause`]: crate::ContactCause
+    pub fn contacts_by_cause(&self) -> Vec<(ContactCause, usize, f64)> {
+        let mut causes: BTreeMap<ContactCause, (usize, f64)> = BTreeMap::new();
+        for place in &self.contacts {
+            let (count, length) = causes.entry(place.cause).or_default();
+            *count += 1;
+            *length += place.length;
+        }
+        causes.into_iter().map(|(cause, (count, length))| (cause, count, length)).collect()
+    }
+
+    fn write_contacts(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (cause, count, length) in self.contacts_by_cause() {
+            writeln!(f, "touches the model, {} ({count} places, {length:.1} mm):", cause.name())?;
+            let mut places: Vec<&ContactPlace> = self.contacts.iter().filter(|p| p.cause == cause).collect();
+            places.sort_by(|a, b| b.length.total_cmp(&a.length));
+            for place in places.iter().take(SHOWN) {
+                let ContactPlace { first_layer, last_layer, at, length, .. } = place;
+                writeln!(
+                    f,
+                    "    layers {first_layer} to {last_layer} at {:.2} {:.2}: {length:.2}",
+                    at.x, at.y
+                )?;
+            }
+        }
+        Ok(())
+    }
+
     fn worst_of(&self, kind: FindingKind) -> Vec<&Finding> {
         let mut worst: Vec<&Finding> = self.findings_of(kind).collect();
         worst.sort_by(|a, b| b.measure.total_cmp(&a.measure));
@@ -83,7 +117,7 @@ impl Report {
 }
 
 impl fmt::Display for Report {
-    /// One figure a line, then the worst findings of each kind, then the verdict.
+    /// One figure a line, then the worst findings of each kind, the largest places of contact, and the verdict.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (name, amount) in self.figures.entries() {
             match amount {
@@ -105,6 +139,7 @@ impl fmt::Display for Report {
                 writeln!(f, ": {:.2}", finding.measure)?;
             }
         }
+        self.write_contacts(f)?;
         let short = self.falls_short();
         if short.is_empty() {
             return write!(f, "sound");
@@ -123,12 +158,13 @@ impl serde::Serialize for Report {
     /// The verdict and what it rests on are written with the rest, so that the text can be read by itself.
     fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         use serde::ser::SerializeStruct;
-        let mut report = to.serialize_struct("Report", 5)?;
+        let mut report = to.serialize_struct("Report", 6)?;
         report.serialize_field("sound", &self.is_sound())?;
         report.serialize_field("falls_short", &self.falls_short())?;
         report.serialize_field("settings", &self.settings)?;
         report.serialize_field("figures", &self.figures)?;
         report.serialize_field("findings", &self.findings)?;
+        report.serialize_field("contacts", &self.contacts)?;
         report.end()
     }
 }

@@ -9,6 +9,9 @@ use argil_curve::DVec2;
 /// Segments shorter than this, mm, get no sample.
 const NO_LENGTH: f64 = 1e-9;
 
+/// A length that is a whole number of steps but for so much of a step, by rounding, is cut into that number.
+const WHOLE: f64 = 1e-9;
+
 /// A point in the middle of a short piece of a polyline.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sample {
@@ -27,7 +30,7 @@ pub(crate) fn samples(points: &[DVec2], step: f64) -> Vec<Sample> {
         if length <= NO_LENGTH {
             continue;
         }
-        let pieces = (length / step).ceil().max(1.0) as usize;
+        let pieces = (length / step - WHOLE).ceil().max(1.0) as usize;
         let share = 1.0 / pieces as f64;
         samples.extend((0..pieces).map(|k| Sample {
             at: pair[0].lerp(pair[1], (k as f64 + 0.5) * share),
@@ -41,6 +44,10 @@ pub(crate) fn samples(points: &[DVec2], step: f64) -> Vec<Sample> {
 /// A maximal run of marked samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Run {
+    /// Index of its first sample.
+    pub(crate) first: usize,
+    /// Index of its last one; less than that of the first where a run goes over the end of a cycle.
+    pub(crate) last: usize,
     /// Index of the sample in the middle of the run.
     pub(crate) middle: usize,
     /// Length of the pieces in the run, mm.
@@ -64,7 +71,8 @@ pub(crate) fn runs(
             let (first, run) = open.unwrap_or((turn, 0.0));
             open = Some((first, run + length(k)));
         } else if let Some((first, length)) = open.take() {
-            runs.push(Run { middle: (begin + (first + turn) / 2) % count, length });
+            let at = |turn: usize| (begin + turn) % count;
+            runs.push(Run { first: at(first), last: at(turn - 1), middle: at((first + turn) / 2), length });
         }
     }
     runs

@@ -2,7 +2,8 @@
 
 use crate::AuditError;
 
-/// Width in mm of the bead whose figures the tolerances were chosen on; every tolerance scales with the bead.
+/// Width in mm of the bead whose figures the tolerances were chosen on; every tolerance scales with the bead
+/// that it is meant for.
 const REFERENCE_WIDTH: f64 = 1.5;
 
 /// What was asked for and what the material bears. Lengths in millimetres.
@@ -17,8 +18,12 @@ const REFERENCE_WIDTH: f64 = 1.5;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct AuditSettings {
-    /// Bead width w. A wider bead covers more and doubles more; every tolerance of the audit scales with it.
+    /// Bead width w. A wider bead covers more and doubles more.
     pub width: f64,
+    /// Bead width that the tolerances are meant for, mm: usually w itself. A smaller one measures more strictly, in
+    /// proportion; one that stays the same over several widths makes their figures comparable with programs whose
+    /// tolerances are millimetres.
+    pub tolerance_width: f64,
     /// Height of a layer. Layer n of the file is compared with the model cut at (n + ½) heights above its
     /// lowest point.
     pub layer_height: f64,
@@ -49,6 +54,7 @@ impl AuditSettings {
     pub fn for_width(width: f64) -> Self {
         Self {
             width,
+            tolerance_width: width,
             layer_height: width / 3.0,
             walls: 1,
             across: 0.3 * width,
@@ -61,6 +67,7 @@ impl AuditSettings {
     pub(crate) fn checked(&self) -> Result<(), AuditError> {
         let positive = [
             ("width", self.width),
+            ("tolerance_width", self.tolerance_width),
             ("layer_height", self.layer_height),
             ("across", self.across),
             ("along", self.along),

@@ -31,7 +31,7 @@ pub(crate) fn hanging(
         found
             .into_iter()
             .filter(|run| run.length > bridge)
-            .map(move |Run { middle, length }| (first + middle, length))
+            .map(move |Run { middle, length, .. }| (first + middle, length))
     };
     stretches(0, cut, false)
         .chain(stretches(cut, pieces.len(), cyclic))

@@ -3,7 +3,7 @@
 
 use argil_audit::gcode::read_gcode;
 use argil_audit::mesh::Mesh;
-use argil_audit::{AuditError, AuditSettings, FindingKind, Report, audit};
+use argil_audit::{AuditError, AuditSettings, ContactCause, FindingKind, Report, audit};
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
@@ -125,6 +125,7 @@ fn a_missing_stretch_of_wall() {
     assert!(report.figures.model_missed_fraction > 0.01, "{report}");
     let missed = report.findings_of(FindingKind::MissedWall).next().unwrap();
     assert!(missed.layer == 4 && (missed.measure - 29.0 * 0.7).abs() < 1.0, "{missed:?}");
+    assert_eq!(report.findings_of(FindingKind::BareOutline).map(|f| f.layer).collect::<Vec<_>>(), [4]);
     // The next layer is open too: it begins with the way from where this one stopped.
     assert_eq!(report.findings_of(FindingKind::OpenLayer).map(|f| f.layer).collect::<Vec<_>>(), [4, 5]);
 }
@@ -148,6 +149,53 @@ fn the_same_spur_on_a_spur() {
     let report = audited(&tube_but(|k| (k < 6).then(spur)));
     assert!(report.is_sound(), "{report}");
     assert!(report.figures.material_ratio > 0.0 && report.figures.roots_per_model_m > 0.0);
+}
+
+#[test]
+fn a_spur_in_every_layer_is_one_root() {
+    let report = audited(&tube_but(|_| Some(spur())));
+    let f = &report.figures;
+    assert!(f.coherence_mm < 0.05 && f.jumps_fraction == 0.0, "{report}");
+    assert_eq!(report.contacts.len(), 1, "{report}");
+    let root = report.contacts[0];
+    assert_eq!((root.cause, root.first_layer, root.last_layer), (ContactCause::Root, 0, 7));
+    // Two legs of less than 4/3 w each, from where they leave the wall's own bead.
+    assert!(root.length > 8.0 && root.length < 8.0 * 4.0 && root.at.x > RADIUS - 0.5 * WIDTH, "{root:?}");
+}
+
+#[test]
+fn a_spur_that_holds_nothing_is_a_jump() {
+    let report = audited(&only(0, &spur()));
+    let jump = report.findings_of(FindingKind::Jump).next().unwrap();
+    assert!(jump.layer == 0 && jump.measure > 10.0 && jump.at.unwrap().x > RADIUS, "{jump:?}");
+    assert!(report.figures.jumps_fraction > 0.5 && report.figures.coherence_widths > 1.0, "{report}");
+    assert_eq!(report.figures.jumps_fraction, report.figures.apart_from_above_fraction);
+}
+
+/// Points at an angle in degrees and a distance from the axis.
+fn at(degrees: f64, radius: f64) -> (f64, f64) {
+    let (s, c) = degrees.to_radians().sin_cos();
+    (radius * c, radius * s)
+}
+
+#[test]
+fn strand_along_the_wall_is_a_place_to_clean() {
+    let beside = RADIUS + 0.5;
+    let along = (0..=20).map(|k| at(-10.0 - 2.0 * f64::from(k), beside));
+    let back = (0..=20).map(|k| at(-50.0 + 2.0 * f64::from(k), RADIUS + 3.0));
+    let points: Vec<(f64, f64)> = along.chain(back).collect();
+    let report = audited(&tube_but(|_| Some(with_excursion(&points))));
+    let place = report.contacts.iter().find(|place| place.cause == ContactCause::Passing).unwrap();
+    assert_eq!((place.first_layer, place.last_layer), (0, 7));
+    assert!(place.length > 8.0 * 9.0 && place.length < 8.0 * 13.0, "{place:?}");
+    assert!(report.to_string().contains("passing by (1 places"), "{report}");
+}
+
+#[test]
+fn a_narrow_hairpin_is_a_bend_and_no_turn() {
+    let points = [at(-1.0, RADIUS + 5.0), at(1.0, RADIUS + 5.0)];
+    let f = audited(&only(0, &with_excursion(&points))).figures;
+    assert_eq!((f.sharp_turns_nonmodel, f.sharp_bends_nonmodel), (0, 1));
 }
 
 #[test]

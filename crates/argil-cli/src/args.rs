@@ -159,8 +159,7 @@ pub(crate) struct PlanArgs {
     /// Do not measure the finished g-code.
     #[arg(long)]
     pub(crate) no_audit: bool,
-    /// How many threads to use: the audit runs beside the drawing of pictures; planning uses one so far. The result is
-    /// the same for any number.
+    /// How many threads to use. The result is the same for any number.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) threads: u16,
 }
@@ -173,6 +172,9 @@ pub(crate) struct AuditArgs {
     /// The model that it was made from: an STL file, or sample:NAME.
     #[arg(long, value_name = "MODEL")]
     pub(crate) model: String,
+    /// Bead width that the tolerances of the audit are meant for, in mm [default: the bead's width].
+    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
+    pub(crate) tolerance_width: Option<f64>,
     /// Write the figures as JSON; `-` is standard output, in place of the text.
     #[arg(long, value_name = "OUT.json")]
     pub(crate) json: Option<PathBuf>,

@@ -19,7 +19,10 @@ pub(crate) fn run(args: &AuditArgs) -> Result<ExitCode, Failure> {
     args.json.iter().try_for_each(|path| output::check(path))?;
     let mesh = input::model(&args.model, args.place, &profiles)?;
     let bytes = std::fs::read(&args.gcode).map_err(|source| Failure::reading(&args.gcode, source))?;
-    let report = measure(&String::from_utf8_lossy(&bytes), &mesh, &settings)
+    let wanted = wanted(&settings);
+    let wanted =
+        AuditSettings { tolerance_width: args.tolerance_width.unwrap_or(wanted.tolerance_width), ..wanted };
+    let report = audit(&read_gcode(&String::from_utf8_lossy(&bytes)), &mesh, &wanted)
         .map_err(|source| Failure::input(&args.gcode.display().to_string(), source))?;
     if !args.json.as_deref().is_some_and(output::is_standard) {
         println!("{report}");
@@ -38,13 +41,17 @@ pub(crate) fn measure(
     mesh: &Mesh,
     settings: &Settings,
 ) -> Result<Report, argil_audit::AuditError> {
+    audit(&read_gcode(text), mesh, &wanted(settings))
+}
+
+/// What the audit has to know of a plan's settings.
+fn wanted(settings: &Settings) -> AuditSettings {
     let criterion = settings.criterion();
-    let wanted = AuditSettings {
+    AuditSettings {
         layer_height: settings.layer_height,
         walls: settings.walls,
         across: criterion.across,
         along: criterion.along,
         ..AuditSettings::for_width(settings.width)
-    };
-    audit(&read_gcode(text), mesh, &wanted)
+    }
 }

@@ -32,6 +32,9 @@ pub(crate) enum Failure {
     Plan { name: String, source: argil::PlanError },
     /// The result cannot be written as g-code or a picture.
     Output { what: &'static str, source: Box<dyn std::error::Error> },
+    /// The threads that were asked for cannot be had.
+    #[cfg(feature = "rayon")]
+    Threads { threads: usize, source: rayon::ThreadPoolBuildError },
 }
 
 impl Failure {
@@ -97,6 +100,8 @@ impl fmt::Display for Failure {
                 advice(source).iter().try_for_each(|advice| write!(f, "\n       {advice}"))
             }
             Self::Output { what, source } => write!(f, "the {what} cannot be written: {source}"),
+            #[cfg(feature = "rayon")]
+            Self::Threads { threads, source } => write!(f, "{threads} threads cannot be had: {source}"),
         }
     }
 }

@@ -17,7 +17,7 @@ use crate::failure::{FINDINGS, Failure};
 use crate::preview_page::preview_page;
 use crate::profiles::Profiles;
 use crate::progress::PlanBar;
-use crate::report::{PlanReport, is_finding, summary};
+use crate::report::{PlanReport, cleaning, is_finding, summary};
 use crate::{input, machine, output};
 
 /// Longest side of the overview picture, pixels.
@@ -33,7 +33,7 @@ pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
     files.into_iter().chain([Some(&args.output)]).flatten().try_for_each(|path| output::check(path))?;
     let mesh = input::model(&args.model, args.place, &profiles)?;
     let plan =
-        plan(&mesh, &settings, args).map_err(|source| Failure::Plan { name: args.model.clone(), source })?;
+        plan(&mesh, &settings, args)?.map_err(|source| Failure::Plan { name: args.model.clone(), source })?;
 
     machine::complete(&mut written, args, &plan)?;
     let gcode = gcode(&plan, &written)?;
@@ -70,6 +70,9 @@ fn verdict(args: &PlanArgs, plan: &Plan, audit: Option<&Report>) -> ExitCode {
     let mut findings = plan.losses.iter().any(is_finding);
     if let Some(report) = audit {
         findings |= !report.is_sound();
+        if !args.quiet {
+            eprintln!("{}", cleaning(report));
+        }
         let short = report.falls_short();
         if short.is_empty() && !args.quiet {
             eprintln!("audit: sound");
@@ -98,16 +101,33 @@ fn audited<'t>(plan: &Plan, written: &GcodeSettings, text: &'t str) -> Result<Co
     gcode(plan, &with_e).map(Cow::Owned)
 }
 
-fn plan(mesh: &Mesh, settings: &Settings, args: &PlanArgs) -> Result<Plan, PlanError> {
+/// The plan, or why there is none; fails by itself only if no threads can be had.
+fn plan(mesh: &Mesh, settings: &Settings, args: &PlanArgs) -> Result<Result<Plan, PlanError>, Failure> {
     let bar = PlanBar::new(args.quiet);
-    let mut follow = |progress| bar.follow(progress);
-    let plan = if args.paper_exact {
-        literal::planner().plan_observed(mesh, settings, &mut follow)
-    } else {
-        Planner::default().plan_observed(mesh, settings, &mut follow)
+    let work = || {
+        let mut follow = |progress| bar.follow(progress);
+        if args.paper_exact {
+            literal::planner().plan_observed(mesh, settings, &mut follow)
+        } else {
+            Planner::default().plan_observed(mesh, settings, &mut follow)
+        }
     };
+    let plan = with_threads(usize::from(args.threads), work)?;
     bar.finish();
-    plan
+    Ok(plan)
+}
+
+/// Runs a piece of work that may spread over this many threads.
+#[cfg(feature = "rayon")]
+fn with_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    Ok(pool.map_err(|source| Failure::Threads { threads, source })?.install(work))
+}
+
+/// Runs a piece of work; without the feature `rayon` there is one thread for it.
+#[cfg(not(feature = "rayon"))]
+fn with_threads<T>(_: usize, work: impl FnOnce() -> T) -> Result<T, Failure> {
+    Ok(work())
 }
 
 /// The audit and the pictures; side by side where there is a thread for each.

@@ -3,7 +3,7 @@
 use argil::slice::Loss;
 use argil::strand::Role;
 use argil::{LayerReport, Plan, Settings};
-use argil_audit::Report;
+use argil_audit::{ContactCause, Report};
 use serde::Serialize;
 
 /// Version of the JSON layout; it rises when a field changes its meaning or goes.
@@ -69,8 +69,9 @@ fn loss(loss: &Loss) -> LossReport {
     let (kind, measure) = match *loss {
         Loss::OpenOutline { length, .. } => ("open outline, mm left out", length),
         Loss::Thin { area, .. } => ("thinner than a bead, mm²", area),
+        Loss::Narrow { length, .. } => ("part thinner than a bead, mm of its middle line", length),
         Loss::Vanished { area, .. } => ("too small to print, mm²", area),
-        Loss::Branch { area, .. } => ("branch thinner than a bead, mm²", area),
+        Loss::Branch { area, .. } => ("part not reached by a bead, mm²", area),
         Loss::Unsound { length, .. } => ("wall left out, mm", length),
         _ => ("other", 0.0),
     };
@@ -111,6 +112,27 @@ pub(crate) fn summary(plan: &Plan) -> String {
         times.join(", "),
         plan.times.total().as_secs_f64() * 1e3
     ));
+    text
+}
+
+/// What an audit says beside its verdict: how the strand follows itself, and what there is to clean.
+pub(crate) fn cleaning(report: &Report) -> String {
+    let f = &report.figures;
+    let mut text = format!(
+        "coherence: {:.2} w from layer to layer, {:.2} % of the strand beside the model jumps\n\
+         touches the model outside:",
+        f.coherence_widths,
+        100.0 * f.jumps_fraction,
+    );
+    let causes = report.contacts_by_cause();
+    if causes.is_empty() {
+        text.push_str(" nowhere");
+    }
+    for (k, (cause, places, length)) in causes.into_iter().enumerate() {
+        let separator = if k == 0 { "" } else { "," };
+        let cut = if cause == ContactCause::Root { " (cut there)" } else { "" };
+        text.push_str(&format!("{separator} {}{cut} {places} places {length:.0} mm", cause.name()));
+    }
     text
 }
 

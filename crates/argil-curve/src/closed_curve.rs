@@ -161,14 +161,22 @@ impl ClosedCurve {
     /// # Complexity
     /// O(n). For many questions about one curve build a [`SegmentIndex`](crate::SegmentIndex).
     pub fn nearest(&self, p: DVec2) -> NearestOnCurve {
-        let mut best = self.on_segment(0, p);
-        for k in 1..self.segment_count() {
-            let next = self.on_segment(k, p);
-            if next.distance < best.distance {
-                best = next;
+        let mut least = self.segment(0).nearest(p).distance;
+        let mut best = 0;
+        for (k, ends) in self.points.windows(2).enumerate().skip(1) {
+            let segment = Segment::new(ends[0], ends[1]);
+            if !segment.is_beyond(p, least) {
+                let distance = segment.nearest(p).distance;
+                if distance < least {
+                    (least, best) = (distance, k);
+                }
             }
         }
-        best
+        let last = self.segment_count() - 1;
+        if self.segment(last).nearest(p).distance < least {
+            best = last;
+        }
+        self.on_segment(best, p)
     }
 
     /// The point of segment `k` nearest to `p`, with its arc length on the curve; `k` is cyclic.
@@ -236,12 +244,14 @@ impl ClosedCurve {
     /// Whether `p` lies inside by the even-odd rule. On the curve itself the answer may be either.
     pub fn contains(&self, p: DVec2) -> bool {
         let mut inside = false;
-        for e in self.segments() {
-            let upward = e.start.y <= p.y && p.y < e.end.y;
-            let downward = e.end.y <= p.y && p.y < e.start.y;
-            if (upward && side(e.start, e.end, p) > 0.0) || (downward && side(e.start, e.end, p) < 0.0) {
-                inside = !inside;
+        let mut start = self.points[self.points.len() - 1];
+        for &end in &self.points {
+            // Most segments lie wholly above or below.
+            if (start.y <= p.y) != (end.y <= p.y) {
+                let side = side(start, end, p);
+                inside ^= if start.y <= p.y { side > 0.0 } else { side < 0.0 };
             }
+            start = end;
         }
         inside
     }

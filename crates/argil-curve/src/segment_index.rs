@@ -11,6 +11,10 @@ const LARGEST: f64 = 1e150;
 /// lie far apart, its memory too.
 const CELLS_PER_SEGMENT: usize = 4;
 
+/// Within a radius of up to this many cells a search looks at all of them, row by row; beyond it goes from the
+/// middle outwards, to end early.
+const FEW_CELLS: f64 = 2.0;
+
 /// A set of segments in a uniform grid: built once, then asked often.
 ///
 /// Queries allocate nothing. Segments with a coordinate that is not finite (or beyond 1e150) stay in
@@ -107,7 +111,31 @@ impl SegmentIndex {
 
     /// The nearest segment, if it lies no further than `radius` mm from `p`.
     pub fn nearest_within(&self, p: DVec2, radius: f64) -> Option<NearestSegment> {
-        self.search(p, radius)
+        if radius <= FEW_CELLS * self.grid.cell {
+            self.search_block(p, radius)
+        } else {
+            self.search(p, radius)
+        }
+    }
+
+    /// Whether any segment lies no further than `radius` mm from `p`.
+    ///
+    /// # Complexity
+    /// As for [`nearest_within`](Self::nearest_within), but it ends at the first segment found.
+    pub fn is_within(&self, p: DVec2, radius: f64) -> bool {
+        if self.is_empty() || !p.is_finite() || radius < 0.0 {
+            return false;
+        }
+        if radius.is_nan() || radius > FEW_CELLS * self.grid.cell {
+            return self.search(p, radius).is_some();
+        }
+        let Some(block) = self.grid.footprint(&Segment::new(p, p), radius) else { return false };
+        (block.south..=block.north).any(|row| {
+            self.items_of_run(block.west, block.east, row).iter().any(|&item| {
+                let segment = &self.segments[item as usize];
+                !segment.is_beyond(p, radius) && segment.nearest(p).distance <= radius
+            })
+        })
     }
 
     /// Visits every segment that may lie within `radius` mm of `segment`, each once, in an order that depends
@@ -165,6 +193,31 @@ impl SegmentIndex {
         &self.items[self.offsets[cell] as usize..self.offsets[cell + 1] as usize]
     }
 
+    /// The items of the cells from column `west` to `east` of a row, which lie side by side.
+    fn items_of_run(&self, west: u32, east: u32, row: u32) -> &[u32] {
+        let cell = row as usize * self.grid.columns as usize;
+        let (from, to) = (self.offsets[cell + west as usize], self.offsets[cell + east as usize + 1]);
+        &self.items[from as usize..to as usize]
+    }
+
+    /// The nearest segment within a radius of few cells: the cell of `p` first, then row by row what is left of
+    /// the block of cells within the distance found there.
+    fn search_block(&self, p: DVec2, radius: f64) -> Option<NearestSegment> {
+        if self.is_empty() || !p.is_finite() || radius < 0.0 {
+            return None;
+        }
+        let point = Segment::new(p, p);
+        let mut best = None;
+        let (column, row) = self.grid.cell_at(p);
+        self.improve(p, radius, self.items_of(column, row), &mut best);
+        let reached = best.map_or(radius, |b| b.distance);
+        let block = self.grid.footprint(&point, reached)?;
+        for row in block.south..=block.north {
+            self.improve(p, radius, self.items_of_run(block.west, block.east, row), &mut best);
+        }
+        best
+    }
+
     /// Rings of cells about the cell nearest to `p`, until what is left of the grid lies further away than
     /// the best segment so far.
     fn search(&self, p: DVec2, limit: f64) -> Option<NearestSegment> {
@@ -181,7 +234,7 @@ impl SegmentIndex {
             let columns = west.unwrap_or(0)..=east.unwrap_or(column_count - 1);
             for row in south.into_iter().chain(north.filter(|_| ring > 0)) {
                 for column in columns.clone() {
-                    self.improve(p, limit, column, row, &mut best);
+                    self.improve(p, limit, self.items_of(column, row), &mut best);
                 }
             }
             if ring > 0 {
@@ -189,7 +242,7 @@ impl SegmentIndex {
                 let below = north.unwrap_or(row_count);
                 for column in west.into_iter().chain(east) {
                     for row in above..below {
-                        self.improve(p, limit, column, row, &mut best);
+                        self.improve(p, limit, self.items_of(column, row), &mut best);
                     }
                 }
             }
@@ -201,10 +254,15 @@ impl SegmentIndex {
         }
     }
 
-    fn improve(&self, p: DVec2, limit: f64, column: usize, row: usize, best: &mut Option<NearestSegment>) {
-        for &item in self.items_of(column, row) {
+    fn improve(&self, p: DVec2, limit: f64, items: &[u32], best: &mut Option<NearestSegment>) {
+        let mut reached = best.map_or(limit, |b| b.distance);
+        for &item in items {
             let index = item as usize;
-            let nearest = self.segments[index].nearest(p);
+            let segment = &self.segments[index];
+            if segment.is_beyond(p, reached) {
+                continue;
+            }
+            let nearest = segment.nearest(p);
             let better = match best {
                 Some(b) => {
                     nearest.distance < b.distance || (nearest.distance == b.distance && index < b.index)
@@ -212,6 +270,7 @@ impl SegmentIndex {
                 None => nearest.distance <= limit,
             };
             if better {
+                reached = nearest.distance;
                 *best = Some(NearestSegment { index, point: nearest.point, distance: nearest.distance });
             }
         }

@@ -64,7 +64,7 @@ impl PathGraph {
     pub fn build(
         space: &FreeSpace<'_>,
         nodes: &Nodes<'_>,
-        weight: impl FnMut(DVec2, DVec2) -> f64,
+        weight: impl Fn(DVec2, DVec2) -> f64 + Sync,
     ) -> Result<PathGraph, GraphError> {
         if !nodes.spacing.is_finite() || nodes.spacing < 0.0 {
             return Err(GraphError::Spacing { spacing: nodes.spacing });
@@ -115,12 +115,14 @@ impl PathGraph {
         positions.extend(portals.iter().map(|&[a, b]| 0.5 * (points[a as usize] + points[b as usize])));
 
         let numbering = Numbering { node_of: &node_of, walls, portals: &portals, first_portal };
-        let mut pairs: Vec<(u32, u32)> = triangles
-            .iter()
-            .flat_map(|triangle| edges_in(triangle, &numbering))
-            .filter(|&(a, b)| positions[a as usize] != positions[b as usize])
-            .map(|(a, b)| (a.min(b), a.max(b)))
-            .collect();
+        let mut pairs: Vec<(u32, u32)> = Vec::with_capacity(3 * triangles.len());
+        for triangle in &triangles {
+            edges_in(triangle, &numbering, |a, b| {
+                if positions[a as usize] != positions[b as usize] {
+                    pairs.push((a.min(b), a.max(b)));
+                }
+            });
+        }
         pairs.sort_unstable();
         pairs.dedup();
 
@@ -288,38 +290,33 @@ impl Numbering<'_> {
 /// with the portals on its own two edges, not with the opposite one: that edge would cross the one between
 /// the other two portals. Only in an ear, a triangle with walls on both sides of the attachment, the opposite
 /// portal is its only way out, and there nothing can be crossed.
-fn edges_in(triangle: &Triangle, numbering: &Numbering<'_>) -> Vec<(u32, u32)> {
-    let corner = |k: usize| triangle.corners[k % 3];
-    let portal_after = |k: usize| {
-        let k = k % 3;
-        if triangle.is_wall[k] { None } else { numbering.portal(corner(k), corner(k + 1)) }
+fn edges_in(triangle: &Triangle, numbering: &Numbering<'_>, mut edge: impl FnMut(u32, u32)) {
+    let [a, b, c] = triangle.corners;
+    let portal = |k: usize, from: u32, to: u32| {
+        if triangle.is_wall[k] || !(numbering.is_wall_vertex(from) && numbering.is_wall_vertex(to)) {
+            None
+        } else {
+            numbering.portal(from, to)
+        }
     };
-    let mut inner = Vec::with_capacity(3);
+    // The portal on the edge after each corner.
+    let portals = [portal(0, a, b), portal(1, b, c), portal(2, c, a)];
+    let nodes = triangle.corners.map(|corner| numbering.node(corner));
+    let is_wall_vertex = triangle.corners.map(|corner| numbering.is_wall_vertex(corner));
+    let free = |k: usize| nodes[k].filter(|_| !is_wall_vertex[k]);
+    let inner = [free(0), portals[0], free(1), portals[1], free(2), portals[2]];
+    for (k, a) in inner.iter().enumerate() {
+        let Some(a) = *a else { continue };
+        inner[k + 1..].iter().flatten().for_each(|&b| edge(a, b));
+    }
     for k in 0..3 {
-        if !numbering.is_wall_vertex(corner(k)) {
-            inner.extend(numbering.node(corner(k)));
-        }
-        inner.extend(portal_after(k));
-    }
-    let mut edges = Vec::with_capacity(7);
-    for (k, &a) in inner.iter().enumerate() {
-        edges.extend(inner[k + 1..].iter().map(|&b| (a, b)));
-    }
-    for k in (0..3).filter(|&k| numbering.is_wall_vertex(corner(k))) {
-        let Some(attachment) = numbering.node(corner(k)) else { continue };
-        let (before, after) = (k + 2, k);
-        let is_ear = triangle.is_wall[before % 3] && triangle.is_wall[after];
-        for other in [k + 1, k + 2].map(corner) {
-            if !numbering.is_wall_vertex(other) {
-                edges.extend(numbering.node(other).map(|node| (attachment, node)));
-            }
-        }
-        edges.extend(
-            [portal_after(before), portal_after(after)].into_iter().flatten().map(|p| (attachment, p)),
-        );
-        if is_ear {
-            edges.extend(portal_after(k + 1).map(|p| (attachment, p)));
+        let Some(attachment) = nodes[k].filter(|_| is_wall_vertex[k]) else { continue };
+        let (before, opposite) = ((k + 2) % 3, (k + 1) % 3);
+        let is_ear = triangle.is_wall[before] && triangle.is_wall[k];
+        let ways = [free(opposite), free(before), portals[before], portals[k]];
+        ways.into_iter().flatten().for_each(|way| edge(attachment, way));
+        if let Some(way) = portals[opposite].filter(|_| is_ear) {
+            edge(attachment, way);
         }
     }
-    edges
 }

@@ -1,9 +1,15 @@
 use std::sync::OnceLock;
 
 use glam::DVec2;
+#[cfg(feature = "rayon")]
+use rayon::prelude::*;
 
 use crate::GraphError;
 use crate::hierarchy::Hierarchy;
+
+/// One thread weighs at least this many edges: fewer take less time than another thread takes to wake.
+#[cfg(feature = "rayon")]
+const EDGES_AT_ONCE: usize = 256;
 
 /// A plane graph of paths between walls, with flat, index-ordered storage.
 ///
@@ -96,15 +102,23 @@ impl PathGraph {
         attachments: Vec<u32>,
         terminals: Vec<u32>,
         pairs: &[(u32, u32)],
-        mut weight: impl FnMut(DVec2, DVec2) -> f64,
+        weight: impl Fn(DVec2, DVec2) -> f64 + Sync,
     ) -> Result<PathGraph, GraphError> {
         if pairs.len() > (u32::MAX / 2) as usize {
             return Err(GraphError::TooLarge { count: pairs.len() });
         }
-        let mut edges = Vec::with_capacity(pairs.len());
-        for &(a, b) in pairs {
-            let (from, to) = (positions[a as usize], positions[b as usize]);
-            edges.push((a, b, check_weight(from, to, weight(from, to))?));
+        let ends = |&(a, b): &(u32, u32)| (positions[a as usize], positions[b as usize]);
+        let weighed = |pair: &(u32, u32)| {
+            let (from, to) = ends(pair);
+            (pair.0, pair.1, weight(from, to))
+        };
+        #[cfg(feature = "rayon")]
+        let edges: Vec<_> = pairs.par_iter().with_min_len(EDGES_AT_ONCE).map(weighed).collect();
+        #[cfg(not(feature = "rayon"))]
+        let edges: Vec<_> = pairs.iter().map(weighed).collect();
+        for (pair, edge) in pairs.iter().zip(&edges) {
+            let (from, to) = ends(pair);
+            check_weight(from, to, edge.2)?;
         }
         let is_attachment = (0..positions.len()).map(|v| v < attachment_count as usize).collect();
         Ok(PathGraph::assemble(positions, is_attachment, attachments, terminals, &edges))

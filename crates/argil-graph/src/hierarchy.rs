@@ -44,7 +44,7 @@ impl Hierarchy {
     pub(crate) fn new(graph: &PathGraph) -> Hierarchy {
         let count = graph.vertex_count();
         let (order, links) = eliminate(graph);
-        let (order, links) = in_postorder(&order, links);
+        let order = in_postorder(&order, &links);
 
         let mut rank_of = vec![0; count];
         let mut vertex_of: Vec<u32> = (0..count as u32).filter(|&v| graph.is_attachment(v)).collect();
@@ -64,29 +64,36 @@ impl Hierarchy {
         }
         vertex_of.extend(&order);
 
+        let total = order.iter().map(|&v| links.len(v)).sum::<usize>() + graph.edge_count();
+        let mut offsets = Vec::with_capacity(count + 1);
+        offsets.push(0);
         let mut hierarchy = Hierarchy {
             rank_of,
             vertex_of,
             attachment_count,
-            offsets: vec![0],
-            to: Vec::new(),
-            weights: Vec::new(),
-            middles: Vec::new(),
+            offsets,
+            to: Vec::with_capacity(total),
+            weights: Vec::with_capacity(total),
+            middles: Vec::with_capacity(total),
         };
+        let mut own = Vec::new();
         for rank in 0..attachment_count {
             let vertex = hierarchy.vertex_of[rank];
             let open = graph.neighbours(vertex).filter(|&(u, _)| !graph.is_attachment(u));
-            let own = open.map(|(to, weight)| Link { to, middle: Self::NO_MIDDLE, weight }).collect();
-            hierarchy.push(own);
+            own.clear();
+            own.extend(open.map(|(to, weight)| Link { to, middle: Self::NO_MIDDLE, weight }));
+            hierarchy.push(&mut own);
         }
-        for own in links {
-            hierarchy.push(own);
+        for v in order {
+            own.clear();
+            own.extend_from_slice(links.of(v));
+            hierarchy.push(&mut own);
         }
         hierarchy
     }
 
-    fn push(&mut self, mut links: Vec<Link>) {
-        for link in &mut links {
+    fn push(&mut self, links: &mut [Link]) {
+        for link in &mut *links {
             link.to = self.rank_of[link.to as usize];
             if link.middle != Self::NO_MIDDLE {
                 link.middle = self.rank_of[link.middle as usize];
@@ -156,20 +163,77 @@ impl Hierarchy {
     }
 }
 
+/// The links of all vertices one after the other. A list that outgrows its room moves to the end, so that
+/// nothing is allocated for a single vertex.
+#[derive(Clone, Debug, Default)]
+struct LinkLists {
+    links: Vec<Link>,
+    /// Start, length and room of each list.
+    spans: Vec<(u32, u32, u32)>,
+}
+
+impl LinkLists {
+    fn of(&self, v: u32) -> &[Link] {
+        let (start, length, _) = self.spans[v as usize];
+        &self.links[start as usize..(start + length) as usize]
+    }
+
+    fn len(&self, v: u32) -> usize {
+        self.spans[v as usize].1 as usize
+    }
+
+    fn of_mut(&mut self, v: u32) -> &mut [Link] {
+        let (start, length, _) = self.spans[v as usize];
+        &mut self.links[start as usize..(start + length) as usize]
+    }
+
+    /// Adds the list of the next vertex.
+    fn append(&mut self, links: impl Iterator<Item = Link>) {
+        let start = self.links.len() as u32;
+        self.links.extend(links);
+        let length = self.links.len() as u32 - start;
+        self.spans.push((start, length, length));
+    }
+
+    fn push(&mut self, v: u32, link: Link) {
+        let (start, length, room) = self.spans[v as usize];
+        let place = if length < room {
+            start
+        } else {
+            let moved = self.links.len();
+            self.links.extend_from_within(start as usize..(start + length) as usize);
+            let room = (2 * room).max(8);
+            self.links.resize(moved + room as usize, link);
+            self.spans[v as usize] = (moved as u32, length, room);
+            moved as u32
+        };
+        self.links[(place + length) as usize] = link;
+        self.spans[v as usize].1 += 1;
+    }
+
+    /// Takes the link to `to` out of the list of `v` and leaves the others in their order.
+    fn remove(&mut self, v: u32, to: u32) {
+        let list = self.of_mut(v);
+        if let Some(place) = list.iter().position(|link| link.to == to) {
+            list.copy_within(place + 1.., place);
+            self.spans[v as usize].1 -= 1;
+        }
+    }
+}
+
 /// The vertices that are no attachments in the order of their elimination, and the links that each then has.
-fn eliminate(graph: &PathGraph) -> (Vec<u32>, Vec<Vec<Link>>) {
+fn eliminate(graph: &PathGraph) -> (Vec<u32>, LinkLists) {
     let count = graph.vertex_count();
     let open = |&(u, _): &(u32, f64)| !graph.is_attachment(u);
     let edge = |(to, weight)| Link { to, middle: Hierarchy::NO_MIDDLE, weight };
-    let mut remaining: Vec<Vec<Link>> = (0..count as u32)
-        .map(|v| {
-            if graph.is_attachment(v) {
-                Vec::new()
-            } else {
-                graph.neighbours(v).filter(open).map(edge).collect()
-            }
-        })
-        .collect();
+    let mut remaining = LinkLists {
+        links: Vec::with_capacity(6 * graph.edge_count() + 16),
+        spans: Vec::with_capacity(count),
+    };
+    for v in 0..count as u32 {
+        let own = if graph.is_attachment(v) { PathGraph::NO_VERTEX } else { v };
+        remaining.append(graph.neighbours(own).filter(open).map(edge));
+    }
 
     // The vertices by degree. An entry is stale once its vertex is gone or has another degree.
     let mut queues: Vec<Vec<u32>> = Vec::new();
@@ -179,82 +243,88 @@ fn eliminate(graph: &PathGraph) -> (Vec<u32>, Vec<Vec<Link>>) {
         }
         queues[degree].push(v);
     };
-    let interior: Vec<u32> = (0..count as u32).filter(|&v| !graph.is_attachment(v)).collect();
-    for &v in interior.iter().rev() {
-        enqueue(&mut queues, remaining[v as usize].len(), v);
+    let interior = (0..count as u32).rev().filter(|&v| !graph.is_attachment(v));
+    for v in interior {
+        enqueue(&mut queues, remaining.len(v), v);
     }
 
-    let mut order = Vec::with_capacity(interior.len());
-    let mut taken = Vec::with_capacity(interior.len());
+    let mut order = Vec::with_capacity(count);
     let mut is_gone = vec![false; count];
     // Where in the list under work a neighbour stands, valid while the stamp is current.
     let mut slots = vec![(0_u32, 0_u32); count];
     let mut stamp = 0_u32;
     let mut degree = 0;
+    // The links of the vertex under work, which its neighbours' lists must not move away from.
+    let mut links: Vec<Link> = Vec::new();
     while degree < queues.len() {
         let Some(v) = queues[degree].pop() else {
             degree += 1;
             continue;
         };
-        if is_gone[v as usize] || remaining[v as usize].len() != degree {
+        if is_gone[v as usize] || remaining.len(v) != degree {
             continue;
         }
         is_gone[v as usize] = true;
-        let links = std::mem::take(&mut remaining[v as usize]);
+        links.clear();
+        links.extend_from_slice(remaining.of(v));
         for own in &links {
-            let list = &mut remaining[own.to as usize];
-            list.retain(|link| link.to != v);
+            remaining.remove(own.to, v);
             stamp = stamp.wrapping_add(1);
-            for (slot, link) in list.iter().enumerate() {
+            for (slot, link) in remaining.of(own.to).iter().enumerate() {
                 slots[link.to as usize] = (stamp, slot as u32);
             }
             for other in links.iter().filter(|other| other.to != own.to) {
                 let weight = own.weight + other.weight;
                 match slots[other.to as usize] {
                     (s, slot) if s == stamp => {
-                        let link = &mut list[slot as usize];
+                        let link = &mut remaining.of_mut(own.to)[slot as usize];
                         if weight < link.weight {
                             (link.weight, link.middle) = (weight, v);
                         }
                     }
-                    _ => list.push(Link { to: other.to, middle: v, weight }),
+                    _ => remaining.push(own.to, Link { to: other.to, middle: v, weight }),
                 }
             }
-            let new_degree = list.len();
+            let new_degree = remaining.len(own.to);
             enqueue(&mut queues, new_degree, own.to);
             degree = degree.min(new_degree);
         }
         order.push(v);
-        taken.push(links);
     }
-    (order, taken)
+    (order, remaining)
 }
 
 /// The same elimination in another order with the same links: every vertex right after the vertices that
 /// have it as their first later neighbour. Ranks that are close then share most of their way up.
-fn in_postorder(order: &[u32], mut links: Vec<Vec<Link>>) -> (Vec<u32>, Vec<Vec<Link>>) {
-    let largest = order.iter().max().map_or(0, |&v| v as usize + 1);
-    let mut place = vec![0; largest];
-    for (k, &v) in order.iter().enumerate() {
+fn in_postorder(order: &[u32], links: &LinkLists) -> Vec<u32> {
+    const NONE: u32 = u32::MAX;
+    let mut place = vec![NONE; links.spans.len()];
+    for (&v, k) in order.iter().zip(0..) {
         place[v as usize] = k;
     }
-    let parent = |own: &[Link]| own.iter().map(|link| place[link.to as usize]).min();
-    let parents: Vec<Option<usize>> = links.iter().map(|own| parent(own)).collect();
-    let mut children: Vec<Vec<usize>> = vec![Vec::new(); order.len()];
-    for (k, parent) in parents.iter().enumerate() {
-        if let Some(parent) = *parent {
-            children[parent].push(k);
+    // The children of every vertex as a chain, the earliest eliminated first.
+    let mut first_child = vec![NONE; order.len()];
+    let mut next_sibling = vec![NONE; order.len()];
+    let mut stack: Vec<u32> = Vec::new();
+    for (k, &v) in order.iter().enumerate().rev() {
+        match links.of(v).iter().map(|link| place[link.to as usize]).min() {
+            Some(parent) => {
+                next_sibling[k] = std::mem::replace(&mut first_child[parent as usize], k as u32);
+            }
+            None => stack.push(k as u32),
         }
     }
+    stack.reverse();
     // Parents before their children, then reversed.
-    let mut stack: Vec<usize> = (0..order.len()).filter(|&k| parents[k].is_none()).collect();
     let mut places = Vec::with_capacity(order.len());
     while let Some(k) = stack.pop() {
         places.push(k);
-        stack.extend(&children[k]);
+        let mut child = first_child[k as usize];
+        while child != NONE {
+            stack.push(child);
+            child = next_sibling[child as usize];
+        }
     }
     places.reverse();
-    let order = places.iter().map(|&k| order[k]).collect();
-    let links = places.iter().map(|&k| std::mem::take(&mut links[k])).collect();
-    (order, links)
+    places.into_iter().map(|k| order[k as usize]).collect()
 }

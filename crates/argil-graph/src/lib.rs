@@ -6,6 +6,7 @@ mod error;
 mod graph;
 mod hierarchy;
 mod matrix;
+mod nearby;
 mod path_finder;
 mod space;
 mod sweeps;

@@ -1,3 +1,6 @@
+/// The place of a vertex that does not exist.
+pub(crate) const NOWHERE: u32 = u32::MAX;
+
 /// Shortest path lengths between all pairs of a list of vertices; symmetric.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DistanceMatrix {
@@ -6,9 +9,9 @@ pub struct DistanceMatrix {
 }
 
 impl DistanceMatrix {
-    /// A matrix in which nothing is reached from anywhere.
-    pub(crate) fn unreached(count: usize) -> DistanceMatrix {
-        DistanceMatrix { count, lengths: vec![f64::INFINITY; count * count] }
+    /// A matrix of zeros.
+    pub(crate) fn zero(count: usize) -> DistanceMatrix {
+        DistanceMatrix { count, lengths: vec![0.0; count * count] }
     }
 
     /// Sets the length between two entries of the list, which must exist, in both directions.
@@ -18,17 +21,38 @@ impl DistanceMatrix {
         self.lengths[j * self.count + i] = length;
     }
 
-    /// Makes the entry `copy` of the list the same as the entry `original`.
-    pub(crate) fn duplicate(&mut self, original: usize, copy: usize) {
-        for k in 0..self.count {
-            let length = self.get(original, k);
-            self.set(copy, k, length);
+    /// Sets the lengths from the entry `i` to the entries from `j` on.
+    #[inline(always)]
+    pub(crate) fn set_run(&mut self, i: usize, j: usize, lengths: &[f64]) {
+        let start = i * self.count + j;
+        self.lengths[start..start + lengths.len()].copy_from_slice(lengths);
+    }
+
+    /// Sets the lengths from the entry `i` to the entries from `j` on, as far as there are any.
+    #[inline(always)]
+    pub(crate) fn set_each(&mut self, i: usize, j: usize, lengths: impl Iterator<Item = f64>) {
+        let row = &mut self.lengths[i * self.count..(i + 1) * self.count];
+        for (entry, length) in row.iter_mut().skip(j).zip(lengths) {
+            *entry = length;
         }
-        self.set(copy, original, 0.0);
-        self.set(copy, copy, 0.0);
+    }
+
+    /// The matrix of a list whose entries are, in this order, the entries `places` of this one's; what is
+    /// [`NOWHERE`] is infinitely far from all, even itself.
+    pub(crate) fn renumbered(self, places: &[u32]) -> DistanceMatrix {
+        if places.len() == self.count && places.iter().zip(0..).all(|(&place, k)| place == k) {
+            return self;
+        }
+        let mut lengths = Vec::with_capacity(places.len() * places.len());
+        for &from in places {
+            let row = self.row(from as usize);
+            lengths.extend(places.iter().map(|&to| row.get(to as usize).copied().unwrap_or(f64::INFINITY)));
+        }
+        DistanceMatrix { count: places.len(), lengths }
     }
 
     /// How many vertices the list had.
+    #[inline]
     pub fn len(&self) -> usize {
         self.count
     }
@@ -40,11 +64,13 @@ impl DistanceMatrix {
 
     /// The length of a shortest path from the vertex with index `i` in the list to the one with index `j`:
     /// infinite when there is none, and when an index is out of range.
+    #[inline]
     pub fn get(&self, i: usize, j: usize) -> f64 {
         self.row(i).get(j).copied().unwrap_or(f64::INFINITY)
     }
 
     /// The lengths from the vertex with index `i` to all; empty when the index is out of range.
+    #[inline]
     pub fn row(&self, i: usize) -> &[f64] {
         if i < self.count { &self.lengths[i * self.count..(i + 1) * self.count] } else { &[] }
     }

@@ -1,6 +1,9 @@
 //! All distances among some vertices by sweeps up and down the hierarchy.
 
+use pulp::{Arch, Simd, WithSimd};
+
 use crate::hierarchy::Hierarchy;
+use crate::matrix::NOWHERE;
 use crate::{DistanceMatrix, PathGraph};
 
 /// How many sources a sweep carries side by side. With fewer the links are read more often, with more the sweep
@@ -23,7 +26,7 @@ impl PathGraph {
     /// The lengths are exact: bit for bit when all weights are whole numbers and no length exceeds 2⁵³,
     /// otherwise up to the rounding of the sums, which are associated differently than along the path. The
     /// matrix is exactly symmetric with a zero diagonal. A vertex that does not exist is infinitely far from
-    /// all, even itself.
+    /// all, even itself. A list that [`arrange`](Self::arrange) has put in order saves a copy of the matrix.
     ///
     /// # Complexity
     /// For T vertices among V, and L links in the hierarchy (about V log V on plane graphs): O(T L), for
@@ -43,49 +46,77 @@ impl PathGraph {
     /// ```
     pub fn distances(&self, among: &[u32]) -> DistanceMatrix {
         let hierarchy = self.hierarchy();
-        let mut matrix = DistanceMatrix::unreached(among.len());
-        // Where each distinct vertex is first mentioned, in the order of rank.
+        // The distinct vertices in the order of rank, and for each entry of the list its place among them.
         let mut mentions: Vec<(u32, usize)> =
             among.iter().enumerate().filter_map(|(k, &v)| Some((hierarchy.rank(v)?, k))).collect();
         mentions.sort_unstable();
-        let mut sources = mentions.clone();
-        sources.dedup_by_key(|mention| mention.0);
-
-        let mut sweep = Sweep::new(hierarchy, &sources);
-        for batch in (0..sources.len()).step_by(LANES) {
-            sweep.run(&sources[batch..sources.len().min(batch + LANES)]);
-            sweep.collect(&sources[batch..], &mut matrix);
-        }
-        self.join_neighbouring_attachments(&sources, &mut matrix);
-        for (at, mention) in mentions.iter().enumerate() {
-            let first = mentions[..at].partition_point(|earlier| earlier.0 < mention.0);
-            if first < at {
-                matrix.duplicate(mentions[first].1, mention.1);
+        let mut places = vec![NOWHERE; among.len()];
+        let mut sources: Vec<u32> = Vec::with_capacity(mentions.len());
+        for (rank, k) in mentions {
+            if sources.last() != Some(&rank) {
+                sources.push(rank);
             }
+            places[k] = sources.len() as u32 - 1;
         }
-        matrix
+
+        let mut by_rank = DistanceMatrix::zero(sources.len());
+        let mut sweep = Sweep::new(hierarchy, &sources);
+        let arch = Arch::new();
+        for first in (0..sources.len()).step_by(LANES) {
+            arch.dispatch(Batch { sweep: &mut sweep, sources: &sources, first, matrix: &mut by_rank });
+        }
+        self.join_neighbouring_attachments(&sources, &mut by_rank);
+        by_rank.renumbered(&places)
+    }
+
+    /// Puts vertices into the order in which distances among them are found, so that [`distances`](Self::distances)
+    /// need not move the matrix about. Neighbours in the plane are then mostly near each other in the list, and
+    /// what reads the matrix finds more of it in the processor's cache. Vertices that do not exist go last.
+    ///
+    /// # Complexity
+    /// O(T log T), and the elimination if this is the first search in the graph.
+    pub fn arrange(&self, vertices: &mut [u32]) {
+        let hierarchy = self.hierarchy();
+        vertices.sort_by_key(|&v| hierarchy.rank(v).unwrap_or(u32::MAX));
     }
 
     /// A path between attachments that passes through none of them can be a single edge, which is no part of
     /// the hierarchy.
-    fn join_neighbouring_attachments(&self, sources: &[(u32, usize)], matrix: &mut DistanceMatrix) {
+    fn join_neighbouring_attachments(&self, sources: &[u32], matrix: &mut DistanceMatrix) {
         let hierarchy = self.hierarchy();
-        let mention = |v: u32| {
-            let rank = hierarchy.rank(v)?;
-            let at = sources.binary_search_by_key(&rank, |source| source.0).ok()?;
-            Some(sources[at].1)
-        };
-        for &(rank, k) in sources {
+        for (k, &rank) in sources.iter().enumerate() {
             let vertex = hierarchy.vertex(rank);
             if !self.is_attachment(vertex) {
                 break; // attachments have the lowest ranks
             }
             for (other, weight) in self.neighbours(vertex).filter(|&(u, _)| self.is_attachment(u)) {
-                if let Some(j) = mention(other) {
+                let place = hierarchy.rank(other).and_then(|rank| sources.binary_search(&rank).ok());
+                if let Some(j) = place {
                     matrix.set(k, j, matrix.get(k, j).min(weight));
                 }
             }
         }
+    }
+}
+
+/// The sweeps of one batch of sources, compiled for every width of vector registers. The lengths are the same
+/// with all of them: each is made by the same additions and comparisons.
+struct Batch<'a, 'h> {
+    sweep: &'a mut Sweep<'h>,
+    sources: &'a [u32],
+    /// The first source of the batch.
+    first: usize,
+    matrix: &'a mut DistanceMatrix,
+}
+
+impl WithSimd for Batch<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let later = &self.sources[self.first..];
+        self.sweep.run(&later[..later.len().min(LANES)]);
+        self.sweep.collect(later, self.first, self.matrix);
     }
 }
 
@@ -100,9 +131,9 @@ struct Sweep<'h> {
 }
 
 impl<'h> Sweep<'h> {
-    fn new(hierarchy: &'h Hierarchy, sources: &[(u32, usize)]) -> Self {
+    fn new(hierarchy: &'h Hierarchy, sources: &[u32]) -> Self {
         let mut batch_of = vec![0; hierarchy.len()];
-        for &(rank, _) in sources {
+        for &rank in sources {
             hierarchy.climb(rank, |r| std::mem::replace(&mut batch_of[r as usize], 1) == 0);
         }
         let needed = (0..hierarchy.len() as u32).filter(|&r| batch_of[r as usize] == 1).collect();
@@ -113,11 +144,12 @@ impl<'h> Sweep<'h> {
     /// not below the first source.
     ///
     /// Ranks below are left to earlier batches: a distance is the same in both directions.
-    fn run(&mut self, sources: &[(u32, usize)]) {
-        let Some(&(lowest, _)) = sources.first() else { return };
+    #[inline(always)]
+    fn run(&mut self, sources: &[u32]) {
+        let Some(&lowest) = sources.first() else { return };
         self.batch += 1;
         let batch = self.batch;
-        for (lane, &(rank, _)) in sources.iter().enumerate() {
+        for (lane, &rank) in sources.iter().enumerate() {
             let (batch_of, lengths) = (&mut self.batch_of, &mut self.lengths);
             self.hierarchy.climb(rank, |r| {
                 let is_new = batch_of[r as usize] != batch;
@@ -148,14 +180,23 @@ impl<'h> Sweep<'h> {
         }
     }
 
-    /// Copies the distances of the batch that was run, which `sources` begins with, to all later sources.
-    fn collect(&self, sources: &[(u32, usize)], matrix: &mut DistanceMatrix) {
-        for (later, &(rank, k)) in sources.iter().enumerate() {
-            let lengths = &self.lengths[rank as usize];
-            for (&(_, j), &length) in sources[..later.min(LANES)].iter().zip(lengths) {
-                matrix.set(j, k, length);
+    /// Copies the distances from the batch that was run, which `later` begins with, to all of `later`, whose
+    /// first is number `first` of the sources.
+    #[inline(always)]
+    fn collect(&self, later: &[u32], first: usize, matrix: &mut DistanceMatrix) {
+        // Tiles of as many rows as columns, so that both a row and its mirror image are written in whole lines.
+        for (tile, ranks) in later.chunks(LANES).enumerate() {
+            let start = tile * LANES;
+            for (k, &rank) in (start..).zip(ranks) {
+                let lengths = &self.lengths[rank as usize];
+                // Within the batch a source has its distances to the earlier ones only.
+                matrix.set_run(first + k, first, if k < LANES { &lengths[..k] } else { lengths });
             }
-            matrix.set(k, k, 0.0);
+            for lane in 0..LANES.min(later.len()) {
+                let skipped = (lane + 1).saturating_sub(start);
+                let run = ranks.iter().skip(skipped).map(|&rank| self.lengths[rank as usize][lane]);
+                matrix.set_each(first + lane, first + start + skipped, run);
+            }
         }
     }
 }

@@ -58,6 +58,8 @@ struct Cells {
     cell: f64,
     last_column: i32,
     sorted: Vec<(i32, i32, u32)>,
+    /// Where the points of each column begin.
+    columns: Vec<u32>,
 }
 
 impl Cells {
@@ -65,10 +67,17 @@ impl Cells {
         let low = points.iter().copied().reduce(DVec2::min)?;
         let high = points.iter().copied().reduce(DVec2::max)?;
         let cell = spacing.max((high - low).max_element() / MOST_CELLS);
-        let mut cells = Cells { origin: low, cell, last_column: 0, sorted: Vec::new() };
+        let mut cells = Cells { origin: low, cell, last_column: 0, sorted: Vec::new(), columns: Vec::new() };
         cells.last_column = cells.column(high.x);
         cells.sorted = points.iter().zip(0..).map(|(p, k)| (cells.column(p.x), cells.row(p.y), k)).collect();
         cells.sorted.sort_unstable();
+        cells.columns.resize(cells.last_column.max(0) as usize + 2, 0);
+        for &(column, _, _) in &cells.sorted {
+            cells.columns[column as usize + 1] += 1;
+        }
+        for column in 1..cells.columns.len() {
+            cells.columns[column] += cells.columns[column - 1];
+        }
         Some(cells)
     }
 
@@ -82,8 +91,10 @@ impl Cells {
 
     fn visit_rows(&self, column: i32, low: f64, high: f64, visit: &mut impl FnMut(usize)) {
         let (first, last) = (self.row(low), self.row(high));
-        let begin = self.sorted.partition_point(|&(c, r, _)| (c, r) < (column, first));
-        for &(_, _, k) in self.sorted[begin..].iter().take_while(|&&(c, r, _)| (c, r) <= (column, last)) {
+        let (from, to) = (self.columns[column as usize], self.columns[column as usize + 1]);
+        let own = &self.sorted[from as usize..to as usize];
+        let begin = own.partition_point(|&(_, row, _)| row < first);
+        for &(_, _, k) in own[begin..].iter().take_while(|&&(_, row, _)| row <= last) {
             visit(k as usize);
         }
     }

@@ -76,7 +76,7 @@ impl Region {
             && !self.walls().into_iter().any(|wall| is_on(p, wall))
     }
 
-    fn build(&self, weight: impl FnMut(DVec2, DVec2) -> f64) -> Result<PathGraph, GraphError> {
+    fn build(&self, weight: impl Fn(DVec2, DVec2) -> f64 + Sync) -> Result<PathGraph, GraphError> {
         PathGraph::build(
             &FreeSpace {
                 outer: self.outer.as_deref(),

@@ -3,6 +3,8 @@
 use argil_curve::{ClosedCurve, DVec2, SegmentIndex};
 use argil_graph::{DistanceMatrix, FreeSpace, Nodes, PathFinder, PathGraph};
 use argil_tour::{Metric, shortest_tour};
+#[cfg(feature = "rayon")]
+use rayon::prelude::*;
 
 use crate::attachment::{Attachments, attach};
 use crate::cycle::Leg;
@@ -74,19 +76,27 @@ struct Sketch {
     tours: Vec<Vec<Stop>>,
 }
 
-/// Distances among the stops of one tour.
-struct Among<'a> {
-    distances: &'a DistanceMatrix,
-    stops: &'a [usize],
+/// Distances among the stops of one tour, row by row.
+struct Among {
+    count: usize,
+    lengths: Vec<f64>,
 }
 
-impl Metric for Among<'_> {
+impl Among {
+    fn new(distances: &DistanceMatrix, stops: &[usize]) -> Self {
+        let lengths = stops.iter().flat_map(|&a| stops.iter().map(move |&b| distances.get(a, b))).collect();
+        Self { count: stops.len(), lengths }
+    }
+}
+
+impl Metric for Among {
     fn nodes(&self) -> usize {
-        self.stops.len()
+        self.count
     }
 
+    #[inline]
     fn distance(&self, a: usize, b: usize) -> f64 {
-        self.distances.get(self.stops[a], self.stops[b])
+        self.lengths[a * self.count + b]
     }
 }
 
@@ -122,11 +132,16 @@ impl RegionView<'_> {
             let tour = (0..demands.len()).map(Stop::Demand).collect();
             return self.draw(&Sketch { places: Vec::new(), tours: vec![tour] }, demands);
         }
-        let plan = self.draw(&self.sketch_excursions(demands, taken)?, demands)?;
+        let excursions = || self.draw(&self.sketch_excursions(demands, taken)?, demands);
         if self.walls.len() == 1 {
-            return Ok(plan);
+            return excursions();
         }
-        let round = self.draw(&self.sketch_round(demands, taken), demands)?;
+        let round = || self.draw(&self.sketch_round(demands, taken), demands);
+        #[cfg(feature = "rayon")]
+        let (plan, round) = rayon::join(excursions, round);
+        #[cfg(not(feature = "rayon"))]
+        let (plan, round) = (excursions(), round());
+        let (plan, round) = (plan?, round?);
         Ok(if round.cost < plan.cost { round } else { plan })
     }
 
@@ -210,9 +225,7 @@ impl RegionView<'_> {
         let among: Vec<u32> =
             cuts.iter().map(|c| c.vertex).chain((0..demands.len()).map(|d| graph.terminal(d))).collect();
         let distances = self.distances(&graph, &among)?;
-        let mut cost = s.root_cost * s.width * cuts.len() as f64;
-        let mut tours = Vec::with_capacity(sketch.tours.len());
-        for stops in &sketch.tours {
+        let tour = |stops: &Vec<Stop>| {
             let serves = stops.iter().any(|stop| matches!(stop, Stop::Demand(_)));
             let stops: Vec<usize> = stops
                 .iter()
@@ -221,12 +234,19 @@ impl RegionView<'_> {
                     Stop::Demand(demand) => cuts.len() + demand,
                 })
                 .collect();
-            let tour = shortest_tour(&Among { distances: &distances, stops: &stops }, &[], None, &s.tour);
-            cost += tour.length;
-            tours.push(Tour {
-                stops: tour.order.iter().map(|&k| among[stops[k]]).collect(),
-                leg: if serves { Leg::Support } else { Leg::Joint },
-            });
+            let tour = shortest_tour(&Among::new(&distances, &stops), &[], None, &s.tour);
+            let stops = tour.order.iter().map(|&k| among[stops[k]]).collect();
+            (tour.length, Tour { stops, leg: if serves { Leg::Support } else { Leg::Joint } })
+        };
+        #[cfg(feature = "rayon")]
+        let drawn: Vec<_> = sketch.tours.par_iter().map(tour).collect();
+        #[cfg(not(feature = "rayon"))]
+        let drawn: Vec<_> = sketch.tours.iter().map(tour).collect();
+        let mut cost = s.root_cost * s.width * cuts.len() as f64;
+        let mut tours = Vec::with_capacity(drawn.len());
+        for (length, tour) in drawn {
+            cost += length;
+            tours.push(tour);
         }
         Ok(RegionPlan { graph, cuts, tours, demands: demands.to_vec(), cost })
     }
@@ -271,7 +291,7 @@ impl RegionView<'_> {
         let s = self.settings;
         let mut weight = a.distance(b);
         if let Some(above) = self.above
-            && [a, b, a.midpoint(b)].iter().all(|&p| above.nearest_within(p, s.across).is_some())
+            && [a, b, a.midpoint(b)].iter().all(|&p| above.is_within(p, s.across))
         {
             weight *= s.coherence;
         }

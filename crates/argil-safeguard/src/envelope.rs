@@ -3,6 +3,8 @@ use geo::bool_ops::FillRule;
 use geo::buffer::{BufferStyle, LineJoin};
 use geo::{BooleanOps, Buffer, CoordsIter, Simplify};
 use geo_types::{MultiPolygon, Polygon};
+#[cfg(feature = "rayon")]
+use rayon::prelude::*;
 
 /// Coordinates beyond this, in millimetres, are no place on a printer, and the polygon kernel
 /// cannot put them on its grid.
@@ -46,13 +48,21 @@ pub fn safeguards(outer_walls: &[MultiPolygon<f64>], settings: &SafeguardSetting
     let tolerance = settings.tolerance();
     let mut below = MultiPolygon(Vec::new());
     let mut result = Vec::with_capacity(outer_walls.len());
-    for walls in outer_walls {
+    for own in all_dilated(outer_walls, settings.dilation, tolerance) {
         let shrunk = simplified(&offset(&below, tolerance - settings.shrink, 0.5 * tolerance), tolerance);
-        let own = dilated(&usable(walls), settings.dilation, tolerance);
         below = united(&shrunk, &own);
         result.push(below.clone());
     }
     result
+}
+
+/// The dilated walls of every layer. None depends on another layer, as the envelope itself does.
+fn all_dilated(layers: &[MultiPolygon<f64>], distance: f64, tolerance: f64) -> Vec<MultiPolygon<f64>> {
+    #[cfg(feature = "rayon")]
+    let layers = layers.par_iter();
+    #[cfg(not(feature = "rayon"))]
+    let layers = layers.iter();
+    layers.map(|walls| dilated(&usable(walls), distance, tolerance)).collect()
 }
 
 /// All points within `distance` of the walls, and at most twice the tolerance more.

@@ -22,26 +22,28 @@ pub(crate) struct Headings {
     pub(crate) leaving: DVec2,
 }
 
-/// Evenly spaced places along a cycle.
+/// Places along a cycle.
 pub(crate) struct Candidates {
     pub(crate) points: Vec<DVec2>,
     /// Direction in which the walk along the cycle comes to each, and in which it goes on; of length 1.
     pub(crate) headings: Vec<Headings>,
-    /// Arc length from one to the next, mm.
-    pub(crate) spacing: f64,
+    /// Arc length of each, mm.
+    pub(crate) arcs: Vec<f64>,
 }
 
 impl Candidates {
-    pub(crate) fn along(cycle: &ClosedCurve, spacing: f64) -> Self {
-        let points = cycle.resampled(spacing.max(cycle.length() / MOST_CANDIDATES));
+    /// Places at the given spacing, and one more.
+    pub(crate) fn along(cycle: &ClosedCurve, spacing: f64, also: Option<f64>) -> Self {
+        let mut points = cycle.resampled(spacing.max(cycle.length() / MOST_CANDIDATES));
         let spacing = cycle.length() / points.len() as f64;
-        let headings = (0..points.len()).map(|k| headings(cycle, k as f64 * spacing)).collect();
-        Self { points, headings, spacing }
-    }
-
-    /// Arc length of candidate `k`.
-    pub(crate) fn arc(&self, k: usize) -> f64 {
-        k as f64 * self.spacing
+        let mut arcs: Vec<f64> = (0..points.len()).map(|k| k as f64 * spacing).collect();
+        if let Some(arc) = also.filter(|arc| arc.is_finite()) {
+            let arc = cycle.wrapped(arc);
+            arcs.push(arc);
+            points.push(cycle.point_at(arc));
+        }
+        let headings = arcs.iter().map(|&arc| headings(cycle, arc)).collect();
+        Self { points, headings, arcs }
     }
 }
 

@@ -100,11 +100,29 @@ pub fn seam_chain(
     settings: &SeamSettings,
     cost: &dyn Fn(usize, DVec2) -> f64,
 ) -> Result<Vec<f64>, SeamError> {
+    seam_chain_among(cycles, &[], settings, cost)
+}
+
+/// The same with one more start a layer: the places at arc lengths `also`, bottom first, are tried beside those at the spacing
+/// of the settings. A chain that is known to exist is found by this however narrow it is. Arcs beyond the number of cycles and such
+/// that are not finite are passed over.
+///
+/// # Errors
+/// As [`seam_chain`].
+///
+/// # Complexity
+/// As [`seam_chain`].
+pub fn seam_chain_among(
+    cycles: &[ClosedCurve],
+    also: &[f64],
+    settings: &SeamSettings,
+    cost: &dyn Fn(usize, DVec2) -> f64,
+) -> Result<Vec<f64>, SeamError> {
     settings.check()?;
     if cycles.is_empty() {
         return Ok(Vec::new());
     }
-    let mut plan = Plan::trusting(cycles, settings, cost)?;
+    let mut plan = Plan::trusting(cycles, also, settings, cost)?;
     let mut rounds = 0;
     loop {
         let chain = plan.cheapest_chain();

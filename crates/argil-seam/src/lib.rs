@@ -13,6 +13,7 @@ mod plan;
 mod step;
 
 pub use argil_curve::{ClosedCurve, DVec2};
-pub use chain::{SeamSettings, seam_chain};
+pub use chain::{SeamSettings, seam_chain, seam_chain_among};
 pub use error::SeamError;
 pub use nearest::nearest_chain;
+pub use step::is_clear;

@@ -31,15 +31,16 @@ pub(crate) struct Plan<'a> {
 }
 
 impl<'a> Plan<'a> {
-    /// Plans all layers, and tests no step for crossings.
+    /// Plans all layers, and tests no step for crossings. `also` has the arc of one more start for each of the lowest cycles.
     pub(crate) fn trusting(
         cycles: &'a [ClosedCurve],
+        also: &[f64],
         settings: &'a SeamSettings,
         cost: &'a dyn Fn(usize, DVec2) -> f64,
     ) -> Result<Self, SeamError> {
         let mut plan = Self { cycles, settings, cost, layers: Vec::with_capacity(cycles.len()) };
         for (layer, cycle) in cycles.iter().enumerate() {
-            let candidates = Candidates::along(cycle, settings.spacing);
+            let candidates = Candidates::along(cycle, settings.spacing, also.get(layer).copied());
             let count = candidates.points.len();
             let mut costs = vec![f64::INFINITY; count];
             let mut from = vec![0; count];
@@ -130,7 +131,7 @@ impl<'a> Plan<'a> {
         let here = &self.layers[layer];
         here.tested.as_ref().is_none_or(|index| {
             let step = Segment::new(start, here.candidates.points[k]);
-            is_clear_by(index, &step, here.candidates.arc(k), &self.cycles[layer])
+            is_clear_by(index, &step, here.candidates.arcs[k], &self.cycles[layer])
         })
     }
 
@@ -158,14 +159,14 @@ impl<'a> Plan<'a> {
         (1..chain.len())
             .filter(|&layer| {
                 let step = Segment::new(place(layer - 1), place(layer));
-                !is_clear(&step, self.layers[layer].candidates.arc(chain[layer]), &self.cycles[layer])
+                !is_clear(&step, self.layers[layer].candidates.arcs[chain[layer]], &self.cycles[layer])
             })
             .collect()
     }
 
     /// The arc lengths of the candidates of a chain.
     pub(crate) fn arcs_of(&self, chain: &[usize]) -> Vec<f64> {
-        chain.iter().zip(&self.layers).map(|(&k, layer)| layer.candidates.arc(k)).collect()
+        chain.iter().zip(&self.layers).map(|(&k, layer)| layer.candidates.arcs[k]).collect()
     }
 
     /// The caller's cost; infinite for what is not a number.

@@ -28,8 +28,12 @@ pub(crate) fn sharp_turns(arriving: DVec2, step: DVec2, leaving: DVec2) -> u8 {
     u8::from(arriving.dot(step) < SHARP * length) + u8::from(step.dot(leaving) < SHARP * length)
 }
 
-/// Whether the step that ends on `cycle` at arc length `s` is clear of every segment of the cycle; O(n).
-pub(crate) fn is_clear(step: &Segment, s: f64, cycle: &ClosedCurve) -> bool {
+/// Whether the step that ends on `cycle` at arc length `s` is clear of every segment of the cycle: it touches it nowhere but at its
+/// own end, or where it runs straight along the strand that it ends on.
+///
+/// # Complexity
+/// O(n) for n segments.
+pub fn is_clear(step: &Segment, s: f64, cycle: &ClosedCurve) -> bool {
     let low = step.start.min(step.end) - TOUCH;
     let high = step.start.max(step.end) + TOUCH;
     step.length() <= ON_STRAND

@@ -34,7 +34,7 @@ pub struct WallLoop {
     pub wall: usize,
     /// Whether the loop bounds a hole of the solid.
     pub hole: bool,
-    /// Whether the outline is too thin for a bead, so that the loop runs nearer to it than w/2.
+    /// Whether part of the outline is too thin for a bead, so that the loop runs nearer to it than w/2 there.
     pub thin: bool,
 }
 
@@ -53,8 +53,8 @@ pub enum Loss {
         /// Distance in millimetres between its ends.
         gap: f64,
     },
-    /// An outline is thinner than a bead: its wall runs at less than w/2 inside and prints
-    /// wider than the model.
+    /// An outline is everywhere thinner than a bead: its wall runs along the middle, less than w/2 inside, and
+    /// prints it wider than it is.
     Thin {
         /// The layer.
         layer: usize,
@@ -62,7 +62,7 @@ pub enum Loss {
         at: DVec2,
         /// The outline's area in square millimetres.
         area: f64,
-        /// How far inside the outline the wall runs, in millimetres.
+        /// How far inside the outline the wall gets, in millimetres.
         inset: f64,
     },
     /// An outline is so thin or small that it gets no wall at all.
@@ -74,7 +74,17 @@ pub enum Loss {
         /// The outline's area in square millimetres.
         area: f64,
     },
-    /// Part of an outline is thinner than a bead and gets no wall, while the rest does.
+    /// Part of an outline is thinner than a bead: its wall runs there and back along the middle, and
+    /// prints it wider than it is.
+    Narrow {
+        /// The layer.
+        layer: usize,
+        /// A point half way along.
+        at: DVec2,
+        /// Length in millimetres of the middle line.
+        length: f64,
+    },
+    /// Part of an outline is not printed, since it is too thin for a line along its middle.
     Branch {
         /// The layer.
         layer: usize,
@@ -102,6 +112,7 @@ impl Loss {
             Self::OpenOutline { layer, .. }
             | Self::Thin { layer, .. }
             | Self::Vanished { layer, .. }
+            | Self::Narrow { layer, .. }
             | Self::Branch { layer, .. }
             | Self::Unsound { layer, .. } => layer,
         }
@@ -114,6 +125,7 @@ impl Loss {
             Self::OpenOutline { at, .. }
             | Self::Thin { at, .. }
             | Self::Vanished { at, .. }
+            | Self::Narrow { at, .. }
             | Self::Branch { at, .. }
             | Self::Unsound { at, .. } => at,
         }

@@ -11,15 +11,21 @@
 #![forbid(unsafe_code)]
 
 mod chain;
+mod chordal_axis;
 mod containment;
 mod error;
+mod fit;
+mod further;
 mod layer;
+mod mitre;
 mod region;
 mod section;
 mod settings;
 mod simplification;
 mod slicing;
 mod soundness;
+mod spine;
+mod thin;
 mod wall;
 
 pub use argil_mesh as mesh;

@@ -1,9 +1,9 @@
 //! The few polygon operations the slicer needs, on top of `geo`.
 
 use geo::bool_ops::FillRule;
-use geo::buffer::{BufferStyle, LineJoin};
+use geo::buffer::{BufferStyle, LineCap, LineJoin};
 use geo::{Area, BooleanOps, Buffer, OpType};
-use geo_types::{Coord, LineString, MultiPolygon, Polygon};
+use geo_types::{Coord, LineString, MultiLineString, MultiPolygon, Polygon};
 use glam::DVec2;
 
 /// The region round which closed contours wind any number of times but none.
@@ -45,6 +45,27 @@ pub(crate) fn mitred_dilation(region: &MultiPolygon<f64>, distance: f64) -> Mult
     offset(region, distance, LineJoin::Miter(60_f64.to_radians()))
 }
 
+/// All points within about `distance` of the lines, whose ends are square.
+pub(crate) fn swept(lines: &[Vec<DVec2>], distance: f64) -> MultiPolygon<f64> {
+    let style = BufferStyle::new(distance).line_cap(LineCap::Square);
+    line_strings(lines).buffer_with_style(style.line_join(LineJoin::Miter(60_f64.to_radians())))
+}
+
+/// All points within `distance` of the lines, short by at most `chord_error`.
+pub(crate) fn beads(lines: &[Vec<DVec2>], distance: f64, chord_error: f64) -> MultiPolygon<f64> {
+    offset(&line_strings(lines), distance, arc_step(distance, chord_error))
+}
+
+fn line_strings(lines: &[Vec<DVec2>]) -> MultiLineString<f64> {
+    let line = |points: &Vec<DVec2>| LineString(points.iter().map(|p| Coord { x: p.x, y: p.y }).collect());
+    MultiLineString(lines.iter().map(line).collect())
+}
+
+/// What lies in either region.
+pub(crate) fn union(a: &MultiPolygon<f64>, b: &MultiPolygon<f64>) -> MultiPolygon<f64> {
+    a.boolean_op_with_fill_rule(b, OpType::Union, FillRule::NonZero)
+}
+
 fn offset(region: &impl Buffer<Scalar = f64>, distance: f64, join: LineJoin<f64>) -> MultiPolygon<f64> {
     region.buffer_with_style(BufferStyle::new(distance).line_join(join))
 }
@@ -53,6 +74,11 @@ fn offset(region: &impl Buffer<Scalar = f64>, distance: f64, join: LineJoin<f64>
 /// less than twice it: its sagitta is at most r (1 − cos step).
 fn arc_step(radius: f64, chord_error: f64) -> LineJoin<f64> {
     LineJoin::Round((1.0 - (chord_error / radius).min(0.3)).acos())
+}
+
+/// The rings of a polygon, the exterior first.
+pub(crate) fn rings(polygon: &Polygon<f64>) -> impl Iterator<Item = &LineString<f64>> {
+    std::iter::once(polygon.exterior()).chain(polygon.interiors())
 }
 
 /// The vertices of a ring without the repeated first.

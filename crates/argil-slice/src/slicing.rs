@@ -1,4 +1,4 @@
-use crate::chain::{Linker, close_gaps};
+use crate::chain::{Linker, OpenChain, close_gaps};
 use crate::layer::{Layer, Loss};
 use crate::region::wound_region;
 use crate::section::Sweep;
@@ -6,6 +6,9 @@ use crate::settings::MOST_LAYERS;
 use crate::wall::walls;
 use crate::{SliceError, SliceSettings};
 use argil_mesh::Mesh;
+use glam::DVec2;
+#[cfg(feature = "rayon")]
+use rayon::prelude::*;
 
 /// Outlines smaller than this, in square millimetres, are rounding errors of the cut.
 const LEAST_AREA: f64 = 1e-6;
@@ -50,25 +53,44 @@ pub fn slice(mesh: &Mesh, settings: &SliceSettings) -> Result<Vec<Layer>, SliceE
     let mut sweep = Sweep::new(&mesh, &edges, &planes);
     let mut linker = Linker::new(edges.ends().len());
     let mut cuts = Vec::new();
-    let mut result = Vec::with_capacity(layers);
+    let mut sections = Vec::with_capacity(layers);
     for (index, &cut_z) in planes.iter().enumerate() {
         sweep.advance(&mut cuts);
-        let (mut contours, mut open) = linker.link(&cuts);
-        contours.append(&mut close_gaps(&mut open, settings.gap * settings.width));
-        let mut losses: Vec<Loss> = open
-            .iter()
-            .filter_map(|chain| {
-                let at = *chain.points.last()?;
-                Some(Loss::OpenOutline { layer: index, at, length: chain.length(), gap: chain.gap() })
-            })
-            .collect();
-        let outline = wound_region(contours, LEAST_AREA);
+        let (contours, open) = linker.link(&cuts);
+        let print_z = bottom + (index as f64 + 1.0) * settings.layer_height;
+        sections.push(UnclosedSection { index, cut_z, print_z, contours, open });
+    }
+    #[cfg(feature = "rayon")]
+    let sections = sections.into_par_iter();
+    #[cfg(not(feature = "rayon"))]
+    let sections = sections.into_iter();
+    Ok(sections.map(|section| section.layer(settings)).collect())
+}
+
+/// What one plane cuts out of the mesh.
+struct UnclosedSection {
+    index: usize,
+    cut_z: f64,
+    print_z: f64,
+    contours: Vec<Vec<DVec2>>,
+    open: Vec<OpenChain>,
+}
+
+impl UnclosedSection {
+    /// The layer with its walls; this is most of the work, and that of one layer is none of another's.
+    fn layer(mut self, settings: &SliceSettings) -> Layer {
+        let index = self.index;
+        self.contours.append(&mut close_gaps(&mut self.open, settings.gap * settings.width));
+        let unclosed = |chain: &OpenChain| {
+            let at = *chain.points.last()?;
+            Some(Loss::OpenOutline { layer: index, at, length: chain.length(), gap: chain.gap() })
+        };
+        let mut losses: Vec<Loss> = self.open.iter().filter_map(unclosed).collect();
+        let outline = wound_region(self.contours, LEAST_AREA);
         let (walls, mut lost) = walls(index, &outline, settings);
         losses.append(&mut lost);
-        let print_z = bottom + (index as f64 + 1.0) * settings.layer_height;
-        result.push(Layer { index, cut_z, print_z, outline, walls, losses });
+        Layer { index, cut_z: self.cut_z, print_z: self.print_z, outline, walls, losses }
     }
-    Ok(result)
 }
 
 fn layer_count(height: f64, layer_height: f64) -> Result<usize, SliceError> {

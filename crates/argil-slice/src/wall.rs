@@ -1,10 +1,16 @@
 use crate::SliceSettings;
 use crate::containment::nest;
+use crate::fit::{Fit, inner_point};
+use crate::further::with_slivers;
 use crate::layer::{Loss, WallLoop};
+use crate::mitre::mitre;
 use crate::region::{self, perimeter, polygon_through, ring_points, signed_area};
-use crate::simplification::{distance_to_side, rounded, simplified};
+use crate::simplification::{rounded, simplified};
 use crate::soundness::unsound;
-use geo::{Area, BooleanOps, Centroid, InteriorPoint, Intersects};
+use crate::spine::{self, is_bare_somewhere};
+use crate::thin::{has_spine, with_spines};
+use argil_curve::SegmentIndex;
+use geo::{Area, Intersects};
 use geo_types::{MultiPolygon, Polygon};
 use glam::DVec2;
 
@@ -35,25 +41,6 @@ struct Cleaning {
     tolerance: f64,
 }
 
-/// Insets in w/2 that are tried in turn on an outline in which no bead fits: the first that
-/// exists squeezes the clay out least.
-const THIN_INSETS: [f64; 9] = [0.96, 0.92, 0.87, 0.8, 0.6, 0.45, 0.3, 0.2, 0.1];
-
-/// A thin loop is printed if it is at least this long and this wide, in w: less is a blob.
-const THIN_LENGTH: f64 = 0.8;
-const THIN_WIDTH: f64 = 0.08;
-
-/// A part of an outline that no bead reaches is reported from this area on, in w²: rounded
-/// corners are smaller (0.05 w² at a right angle).
-const BRANCH_AREA: f64 = 0.25;
-
-/// What the bead may fall short of an outline by without it being a lost branch, in w.
-const BRANCH_SLACK: f64 = 1.0 / 30.0;
-
-/// Outlines whose boundary comes within this of a wall everywhere, in w, have no lost branch: at its tip
-/// a branch is farther away. A right angle, where nothing is lost, is 0.707 w from the wall.
-const BRANCH_DISTANCE: f64 = 0.75;
-
 /// The walls of a layer's outline, and what of it they do not print.
 pub(crate) fn walls(
     layer: usize,
@@ -63,39 +50,74 @@ pub(crate) fn walls(
     let mut losses = Vec::new();
     let mut pieces: Vec<Piece<'_>> = Vec::new();
     let simple: Vec<Polygon<f64>> = outline.iter().map(|polygon| simpler(polygon, settings.width)).collect();
-    for (polygon, original) in simple.iter().zip(outline) {
-        let found = pieces.len();
-        for wall in 0..settings.walls {
+    let mut firsts = Vec::with_capacity(simple.len());
+    for polygon in &simple {
+        let first = Source { polygon, distance: 0.5 * settings.width, wall: 0, thin: false };
+        let mut first = FirstWall::of(first, settings);
+        let walls = if first.walled.0.is_empty() { 1 } else { settings.walls };
+        pieces.append(&mut first.pieces);
+        firsts.push(first);
+        for wall in 1..walls {
             let distance = (wall as f64 + 0.5) * settings.width;
             let before = pieces.len();
             pieces.extend(Source { polygon, distance, wall, thin: false }.pieces(ATTEMPTS[0], settings));
-            if wall > 0 {
-                losses.extend(slight_parts(layer, polygon, distance, &pieces[before..], settings));
-            }
+            losses.extend(slight_parts(layer, polygon, distance, &pieces[before..], settings));
             if pieces.len() == before {
                 break;
             }
         }
-        if pieces.len() == found {
-            let thin = thin_pieces(polygon, settings);
-            let (at, area) = (inner_point(original), original.unsigned_area());
-            losses.push(match thin.first() {
-                Some(piece) => Loss::Thin { layer, at, area, inset: piece.source.distance },
-                None => Loss::Vanished { layer, at, area },
-            });
-            pieces.extend(thin);
-        } else {
-            let first: Vec<&Piece<'_>> =
-                pieces[found..].iter().filter(|piece| piece.source.wall == 0).collect();
-            if !comes_near(polygon, &first, settings.width) {
-                losses.extend(lost_branches(layer, polygon, &first, settings));
-            }
-        }
     }
     let pieces = sound_pieces(pieces, layer, settings, &mut losses);
+    for ((first, polygon), original) in firsts.iter().zip(&simple).zip(outline) {
+        let is_its =
+            |piece: &&Piece<'_>| piece.source.wall == 0 && std::ptr::eq(piece.source.polygon, polygon);
+        let rings: Vec<&Vec<DVec2>> = pieces.iter().filter(is_its).flat_map(|piece| &piece.rings).collect();
+        let FirstWall { outline, walled, spines, .. } = first;
+        losses.extend(Fit { layer, original, outline, walled, spines, rings: &rings }.losses(settings));
+    }
     let mut walls: Vec<WallLoop> = pieces.into_iter().flat_map(Piece::into_loops).collect();
     nest(&mut walls);
     (walls, losses)
+}
+
+/// The first wall of an outline and how it came about.
+struct FirstWall<'a> {
+    pieces: Vec<Piece<'a>>,
+    /// The outline's rings.
+    outline: Vec<Vec<DVec2>>,
+    /// What lies within the wall where the outline is wide enough for one.
+    walled: MultiPolygon<f64>,
+    spines: Vec<Vec<DVec2>>,
+}
+
+impl<'a> FirstWall<'a> {
+    fn of(source: Source<'a>, settings: &SliceSettings) -> Self {
+        let width = settings.width;
+        let mut pieces = source.pieces(ATTEMPTS[0], settings);
+        let walled = MultiPolygon(pieces.iter().map(|piece| piece.region.clone()).collect());
+        let outline: Vec<Vec<DVec2>> = region::rings(source.polygon).map(ring_points).collect();
+        let mut rings: Vec<_> = pieces.iter_mut().flat_map(|piece| &mut piece.rings).collect();
+        let index = mitre(&mut rings, &outline, |_| true, width, settings.grid);
+        let mut spines = Vec::new();
+        if is_bare_somewhere(&outline, &index, width) {
+            spines = spine::spines(&outline, &index, width);
+        }
+        if !spines.is_empty() {
+            let joined = with_spines(&walled, &spines, width);
+            let piece = |region: Polygon<f64>| {
+                let thin = has_spine(&region, &spines);
+                Source { thin, ..source }.piece(region, ATTEMPTS[0], settings)
+            };
+            pieces = joined.into_iter().filter_map(piece).collect();
+            // What lies near the outline is the end of a spine and no corner.
+            let sides =
+                SegmentIndex::new(outline.iter().flat_map(|ring| spine::sides(ring)).collect(), width);
+            let is_corner = |p: DVec2| sides.nearest_within(p, 0.4 * width).is_none();
+            let mut rings: Vec<_> = pieces.iter_mut().flat_map(|piece| &mut piece.rings).collect();
+            mitre(&mut rings, &outline, is_corner, width, settings.grid);
+        }
+        Self { pieces, outline, walled, spines }
+    }
 }
 
 /// Which inset of which outline a piece belongs to.
@@ -111,7 +133,7 @@ struct Source<'a> {
 struct Piece<'a> {
     source: Source<'a>,
     region: Polygon<f64>,
-    /// The exterior first.
+    /// The exterior first; the solid is on the left of each.
     rings: Vec<Vec<DVec2>>,
 }
 
@@ -120,10 +142,11 @@ impl<'a> Source<'a> {
         let width = settings.width;
         let opening = cleaning.opening * width;
         let shrunk = region::inset(self.polygon, self.distance + opening, CHORD * width);
-        if shrunk.0.is_empty() {
-            return Vec::new();
+        let mut opened = if shrunk.0.is_empty() { shrunk } else { region::mitred_dilation(&shrunk, opening) };
+        if self.wall > 0 {
+            let scale = (width, settings.grid, CHORD * width);
+            opened = with_slivers(self.polygon, self.distance, opened, scale);
         }
-        let opened = region::mitred_dilation(&shrunk, opening);
         opened.into_iter().filter_map(|region| self.piece(region, cleaning, settings)).collect()
     }
 
@@ -131,10 +154,15 @@ impl<'a> Source<'a> {
         // Sides of a thousandth of a millimetre have no direction left after rounding.
         let least_side = 12.0 * settings.grid;
         let tolerance = cleaning.tolerance * settings.width;
-        let exterior = std::iter::once(region.exterior());
-        let rings: Vec<Vec<DVec2>> = exterior
-            .chain(region.interiors())
+        let rings: Vec<Vec<DVec2>> = region::rings(&region)
             .map(|ring| rounded(&simplified(&ring_points(ring), tolerance), settings.grid, least_side))
+            .enumerate()
+            .map(|(number, mut ring)| {
+                if (signed_area(&ring) < 0.0) != (number > 0) {
+                    ring.reverse();
+                }
+                ring
+            })
             .collect();
         let kept = rings.first().is_some_and(|ring| ring.len() >= 3);
         kept.then_some(Piece { source: self, region, rings })
@@ -144,12 +172,13 @@ impl<'a> Source<'a> {
 impl Piece<'_> {
     fn into_loops(self) -> impl Iterator<Item = WallLoop> {
         let Source { wall, thin, .. } = self.source;
-        self.rings.into_iter().enumerate().map(move |(number, mut points)| {
-            let hole = number > 0;
-            if (signed_area(&points) < 0.0) != hole {
-                points.reverse();
-            }
-            WallLoop { points, parent: None, depth: 0, wall, hole, thin }
+        self.rings.into_iter().enumerate().map(move |(number, points)| WallLoop {
+            points,
+            parent: None,
+            depth: 0,
+            wall,
+            hole: number > 0,
+            thin,
         })
     }
 }
@@ -168,73 +197,12 @@ fn slight_parts(
     lost.map(|part| Loss::Branch { layer, at: inner_point(part), area: part.unsigned_area() }).collect()
 }
 
-/// The pieces of the largest inset, among a few, that leaves something worth printing.
-fn thin_pieces<'a>(polygon: &'a Polygon<f64>, settings: &SliceSettings) -> Vec<Piece<'a>> {
-    let cleaning = Cleaning { opening: 0.5 * THIN_WIDTH, ..ATTEMPTS[0] };
-    for factor in THIN_INSETS {
-        let source = Source { polygon, distance: factor * 0.5 * settings.width, wall: 0, thin: true };
-        let mut pieces = source.pieces(cleaning, settings);
-        pieces.retain(|piece| {
-            piece.rings.first().is_some_and(|ring| perimeter(ring) >= THIN_LENGTH * settings.width)
-        });
-        if !pieces.is_empty() {
-            return pieces;
-        }
-    }
-    Vec::new()
-}
-
 /// The outline with the vertices left out that change nothing.
 fn simpler(polygon: &Polygon<f64>, width: f64) -> Polygon<f64> {
-    let rings: Vec<Vec<DVec2>> = std::iter::once(polygon.exterior())
-        .chain(polygon.interiors())
+    let rings: Vec<Vec<DVec2>> = region::rings(polygon)
         .map(|ring| simplified(&ring_points(ring), OUTLINE_TOLERANCE * width))
         .collect();
     if rings[0].len() < 3 { polygon.clone() } else { polygon_through(&rings) }
-}
-
-/// Whether every point of the outline has a wall near, so that no branch of it can be lost.
-fn comes_near(polygon: &Polygon<f64>, pieces: &[&Piece<'_>], width: f64) -> bool {
-    let sides: Vec<(DVec2, DVec2)> = pieces
-        .iter()
-        .flat_map(|piece| &piece.rings)
-        .flat_map(|ring| ring.iter().copied().zip(ring.iter().copied().cycle().skip(1)))
-        .collect();
-    let limit = BRANCH_DISTANCE * width;
-    // Walls follow their outline: the next point is near the side that the last was near.
-    let mut near = 0;
-    let mut is_near = |point: DVec2| {
-        let found = (0..sides.len())
-            .map(|k| (near + k) % sides.len())
-            .find(|&k| distance_to_side(point, sides[k].0, sides[k].1) <= limit);
-        near = found.unwrap_or(near);
-        found.is_some()
-    };
-    std::iter::once(polygon.exterior()).chain(polygon.interiors()).flat_map(|ring| ring.lines()).all(|line| {
-        let (from, to) = (DVec2::new(line.start.x, line.start.y), DVec2::new(line.end.x, line.end.y));
-        let parts = (from.distance(to) / (0.5 * width)).ceil().max(1.0);
-        (0..parts as usize).all(|k| is_near(from.lerp(to, k as f64 / parts)))
-    })
-}
-
-/// The parts of an outline that lie farther from its first wall than the bead reaches.
-fn lost_branches(
-    layer: usize,
-    polygon: &Polygon<f64>,
-    pieces: &[&Piece<'_>],
-    settings: &SliceSettings,
-) -> Vec<Loss> {
-    let width = settings.width;
-    let reach = (0.5 + BRANCH_SLACK) * width;
-    let printed = MultiPolygon(pieces.iter().map(|piece| polygon_through(&piece.rings)).collect());
-    let covered = region::dilation(&printed, reach, 0.5 * BRANCH_SLACK * width);
-    let missed = MultiPolygon(vec![polygon.clone()]).difference(&covered);
-    missed
-        .iter()
-        .map(|part| (part, part.unsigned_area()))
-        .filter(|&(_, area)| area > BRANCH_AREA * width * width)
-        .map(|(part, area)| Loss::Branch { layer, at: inner_point(part), area })
-        .collect()
 }
 
 /// Replaces the pieces whose loops touch themselves or others by better cleaned ones, and drops those that
@@ -288,10 +256,4 @@ fn faulty_pieces(pieces: &[Piece<'_>], grid: f64) -> Vec<bool> {
         .iter()
         .map(|piece| faulty.by_ref().take(piece.rings.len()).fold(false, |any, is| any | is))
         .collect()
-}
-
-/// A point inside the polygon, or at least near it where it has no inside.
-fn inner_point(polygon: &Polygon<f64>) -> DVec2 {
-    let point = polygon.interior_point().or_else(|| polygon.centroid());
-    point.map_or(DVec2::ZERO, |p| DVec2::new(p.x(), p.y()))
 }

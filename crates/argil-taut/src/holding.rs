@@ -7,6 +7,9 @@ use crate::TautOptions;
 /// Samples for each `ε_along`: what hangs is measured up to one of them too long.
 const SAMPLES: f64 = 64.0;
 
+/// Samples in a row that a strand has to hold to count: a graze bears nothing.
+const GRIP: usize = 3;
+
 /// A stretch of the curve above that no wall holds, as a range of samples.
 #[derive(Clone, Copy, Debug)]
 struct Run {
@@ -120,14 +123,15 @@ impl Holding {
         false
     }
 
-    /// Whether the hanging stretch about a sample is short enough.
+    /// Whether the hanging stretch about a sample is short enough. Strands that hold fewer than [`GRIP`] samples in a row graze the
+    /// curve and end no stretch.
     fn may_hang(&self, k: usize) -> bool {
         let run = self.runs[self.run_of[k] as usize];
-        let length = run.end - run.first;
+        let most = self.most.min(run.end - run.first);
         let mut hanging = 1;
         for forward in [true, false] {
-            let mut at = k;
-            loop {
+            let (mut at, mut held) = (k, 0);
+            while held < GRIP {
                 at = match (forward, run.closed) {
                     (true, false) if at + 1 == run.end => break,
                     (false, false) if at == run.first => break,
@@ -136,16 +140,15 @@ impl Holding {
                     (true, _) => at + 1,
                     (false, _) => at - 1,
                 };
-                if self.holders[at] > 0 {
-                    break;
-                }
+                held = if self.holders[at] > 0 { held + 1 } else { 0 };
                 hanging += 1;
-                if hanging > self.most.min(length) {
+                if hanging > most + GRIP {
                     return false;
                 }
             }
+            hanging -= held;
         }
-        !self.must[k]
+        hanging <= most && !self.must[k]
     }
 }
 

@@ -40,7 +40,7 @@ impl CandidateLists {
         for a in 0..n {
             self.nearest.clear();
             // Beginning with the next node, so that equal points do not all choose the same few.
-            for b in (a + 1..n).chain(0..a) {
+            for b in (a + 1..n).chain(0..a).take(if count == 0 { 0 } else { n }) {
                 let distance = metric.distance(a, b);
                 if self.nearest.len() == count {
                     if self.nearest.last().is_none_or(|farthest| distance >= farthest.distance) {

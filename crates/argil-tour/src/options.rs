@@ -8,8 +8,9 @@ pub struct TourOptions {
     /// Up to this many nodes the tour is the shortest there is, by dynamic programming. Every further node
     /// doubles time and memory, so that more than 16 counts as 16.
     pub exact_up_to: usize,
-    /// How many nearest nodes each node counts among its candidates, at least 1, besides those the caller adds.
-    /// With fewer the search is faster and blinder.
+    /// How many nearest nodes each node counts among its candidates, besides those the caller adds. With fewer the
+    /// search is faster and blinder; with 0 the caller's candidates are all there are, and no search of
+    /// nearest nodes takes time. Where the caller has none, 0 counts as 1.
     pub neighbours: usize,
     /// How many kicks the iterated search spends a node, 0 to stop at the first local optimum. Time grows in
     /// proportion, by some 10 to 20 µs a kick. Fewer than 50 nodes get the kicks of 50. A budget that is

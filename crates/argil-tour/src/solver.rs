@@ -17,6 +17,9 @@ const FEWEST_CONTRACTED: usize = 100;
 /// as long as the large one.
 const NODES_PER_PATH: usize = 10;
 
+/// Ends of paths have at least this many nearest ends for candidates; the caller's candidates are nodes.
+const NEAREST_ENDS: usize = 5;
+
 /// The kicks that the smaller search spends a node.
 const KICKS_PER_END: usize = 2;
 
@@ -72,7 +75,7 @@ impl TourSolver {
             self.held_karp.solve(metric, &mut self.nodes.order);
         } else {
             let mut random = SplitMix::new(options.seed);
-            let neighbours = options.neighbours.max(1);
+            let neighbours = options.neighbours.max(usize::from(candidates.is_empty()));
             self.nodes.candidates.build(metric, neighbours, candidates);
             match start {
                 Some(start) => mend(metric, start, &mut self.nodes.order),
@@ -91,7 +94,7 @@ impl TourSolver {
         self.contraction.set(&self.paths);
         let ends = self.contraction.metric(metric);
         // One of the nearest is the other end of the path, which is a neighbour already.
-        self.ends.candidates.build(&ends, neighbours + 1, &[]);
+        self.ends.candidates.build(&ends, neighbours.max(NEAREST_ENDS) + 1, &[]);
         self.ends.construct(&ends);
         self.ends.search(&ends, KICKS_PER_END * ends.nodes(), random);
         self.contraction.expand(&self.ends.order, &self.paths, &mut self.nodes.order);

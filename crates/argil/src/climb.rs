@@ -38,11 +38,8 @@ pub(crate) fn strand(
         let beside = roots[k].iter().any(|root| root.distance(p) < ROOT_REACH * width);
         (VISIBLE + if beside { BESIDE_ROOT } else { 0.0 }) * width * width
     };
-    let starts = match seam.starts(&cycles, settings, &cost) {
-        Ok(starts) => starts,
-        // The chain that the descent has kept open on the way down.
-        Err(error) => footholds(layers, settings).ok_or(error)?,
-    };
+    let footholds: Vec<f64> = layers.iter().map(|layer| layer.foothold).collect();
+    let starts = seam.starts(&cycles, &footholds, settings, &cost)?;
     let mut strand_layers = Vec::with_capacity(layers.len());
     let mut first: Option<DVec2> = None;
     let mut below = None;
@@ -68,16 +65,6 @@ pub(crate) fn strand(
         });
     }
     Ok(Strand::new(first.unwrap_or_default(), strand_layers)?)
-}
-
-/// The chain of footholds, if each is held and within a step of the one below.
-fn footholds(layers: &[PlannedLayer], settings: &Settings) -> Option<Vec<f64>> {
-    let seam = settings.seaming();
-    let climbs = layers.windows(2).all(|pair| {
-        let (from, to) = (&pair[0], pair[1].foothold);
-        from.foothold.distance(to) <= seam.reach && from.curve.nearest(to).distance <= seam.across
-    });
-    climbs.then(|| layers.iter().map(|layer| layer.curve.nearest(layer.foothold).s).collect())
 }
 
 /// The cycle opened at `start`, or at the nearest place along it to which the step from the layer below is clear, held
@@ -107,15 +94,14 @@ fn clear_start(
         .unwrap_or(wanted)
 }
 
-/// Whether the step from `from` to an opened cycle crosses none of its stretches.
+/// Whether the step from `from` to an opened cycle crosses none of its stretches, and neither do the two that meet in
+/// its beginning: cut in two on the grid, a stretch that touches a wall may cross it.
 fn is_clear(from: DVec2, (begin, moves): &(DVec2, Vec<Move>)) -> bool {
+    let ends = std::iter::once(*begin).chain(moves.iter().map(|m| m.to));
+    let stretches: Vec<Segment> = ends.zip(moves).map(|(start, m)| Segment::new(start, m.to)).collect();
     let step = Segment::new(from, *begin);
-    let mut at = *begin;
-    moves.iter().all(|m| {
-        let stretch = Segment::new(at, m.to);
-        at = m.to;
-        !stretch.crosses(&step)
-    })
+    let around = [Some(&step), stretches.first(), stretches.last()];
+    around.into_iter().flatten().all(|near| !stretches.iter().any(|stretch| stretch.crosses(near)))
 }
 
 /// Where the strand of a layer leaves and joins walls.

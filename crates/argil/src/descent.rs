@@ -26,8 +26,8 @@ pub(crate) struct PlannedLayer {
     pub(crate) curve: ClosedCurve,
     pub(crate) legs: Vec<Leg>,
     pub(crate) supports: Vec<SupportPoint>,
-    /// A place where the layer may begin.
-    pub(crate) foothold: DVec2,
+    /// Arc length of a place where the layer may begin.
+    pub(crate) foothold: f64,
 }
 
 /// The stages that a descent uses, and what it has learnt so far.
@@ -54,7 +54,7 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
     ) -> Result<Vec<PlannedLayer>, PlanError> {
         let mut planned: Vec<PlannedLayer> = Vec::with_capacity(layers.len());
         let walls_of = |k: usize| SegmentIndex::of_curves(&walls[k], self.settings.width);
-        let mut start = None;
+        let mut start: Option<Foothold> = None;
         for (k, (layer, safeguard)) in layers.iter().zip(safeguards).enumerate().rev() {
             let above = planned.last().map(|p| &p.curve);
             if above.is_none() && layer.walls.is_empty() {
@@ -65,10 +65,10 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
                 PlanError::Layer { layer: layer.index, near: at.or(near).unwrap_or_default(), fault }
             })?;
             let below = k.checked_sub(1).map_or_else(|| SegmentIndex::new(Vec::new(), 1.0), walls_of);
-            let from = above.zip(start.map(|s: Foothold| s.at));
-            let place = foothold(&done.curve, from, &below, &self.settings.seaming());
+            let from = above.zip(start);
+            let place = foothold(&done.curve, from, [&walls_of(k), &below], &self.settings.seaming());
             start = Some(place);
-            planned.push(PlannedLayer { foothold: place.at, ..done });
+            planned.push(PlannedLayer { foothold: place.arc, ..done });
             observe(Progress::Layer { index: layer.index });
         }
         planned.reverse();
@@ -92,9 +92,7 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
         let mut supports = timed(&mut self.times.support, || {
             above.map_or_else(Vec::new, |above| support.points(above, &wall_index, settings))
         });
-        if let Some(start) = start {
-            hold_start(start, &mut supports, &settings.support());
-        }
+        let guide = start.and_then(|start| hold_start(start, &mut supports, settings));
         let demands: Vec<Demand> =
             supports.iter().map(|s| Demand { position: s.position, anchors: s.needs.clone() }).collect();
 
@@ -111,9 +109,11 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
             Check { above, criterion: settings.criterion(), width: settings.width, grid: settings.grid };
         let felt = outside(&candidate, curves);
         let (points, pulled_back) = self.smoothed(&candidate, &supports, (&field, &felt), &check)?;
+        let mut fixed = candidate.fixed.clone();
+        candidate.carriers.iter().filter(|c| Some(c.1) == guide).for_each(|c| fixed[c.0] = true);
         let slack = SlackPath {
             points: &points,
-            fixed: &candidate.fixed,
+            fixed: &fixed,
             above,
             starts: &start.map(|s| s.at).into_iter().collect::<Vec<_>>(),
             walls: &wall_index,
@@ -122,7 +122,7 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
         };
         let taut = &mut self.taut;
         let mut taut = timed(&mut self.times.taut, || taut.points(&slack, settings));
-        let mut cycle = timed(&mut self.times.check, || {
+        let cycle = timed(&mut self.times.check, || {
             check.rounded(&mut taut, &candidate.fixed);
             let points = if self.checked && check.fault(&taut).is_some() { points } else { taut };
             let mut cycle = Cycle { points, ..candidate };
@@ -150,8 +150,7 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
         };
         let (points, legs) = without_repeats(&cycle);
         let curve = ClosedCurve::new(points).map_err(|e| (e.into(), None))?;
-        let foothold = curve.points()[0];
-        Ok(PlannedLayer { report, z: layer.print_z, curve, legs, supports, foothold })
+        Ok(PlannedLayer { report, z: layer.print_z, curve, legs, supports, foothold: 0.0 })
     }
 
     /// The smoothed candidate, repaired until it holds the cycle above, and how many vertices that pulled back.

@@ -3,12 +3,13 @@
 //! The strand climbs by short steps, and each layer has to begin where the layer below holds it. Where strand ends on a
 //! wall, or a body begins in mid-air over a thread of support, no such chain need exist by itself. So while the layers
 //! are planned from the top down, one start a layer is chosen in sight of the walls below, and the next layer is
-//! asked to hold it. On walls that stand on walls this costs nothing. The seam stage is free to find a better chain; where it
-//! finds none on its own spacing, this one serves.
+//! asked to hold it. On walls that stand on walls this costs nothing. The seam stage is free to find a better chain.
 
 use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex};
-use argil_seam::SeamSettings;
-use argil_support::{Placement, SupportPoint};
+use argil_seam::{SeamSettings, is_clear};
+use argil_support::SupportPoint;
+
+use crate::Settings;
 
 /// Share of the longest step that is used, so that starts on the seam stage's own spacing reach each other too.
 const STEP: f64 = 0.85;
@@ -16,60 +17,121 @@ const STEP: f64 = 0.85;
 /// Share of `ε_across` within which a wall must pass, for the same reason.
 const HELD: f64 = 0.65;
 
-/// A start, and whether the walls below hold it and lead up to it.
+/// How far ahead of a start that no wall leads up to the strand is asked to go, in w: towards a wall that does, and no farther than
+/// a step.
+const AHEAD: f64 = 0.6;
+
+/// Spacing of the places on walls that are looked at for one that leads up, in w.
+const LOOK: f64 = 0.5;
+
+/// A start, and how it stands to the walls below.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Foothold {
     pub(crate) at: DVec2,
+    /// Where that is along its cycle.
+    pub(crate) arc: f64,
+    /// Whether the walls below hold it and lead up to it.
     pub(crate) over_wall: bool,
+    /// A place on the walls below to make for, where the nearest one does not lead up.
+    pub(crate) toward: Option<DVec2>,
 }
 
 /// The start on a planned cycle: within a step of the start above, over the walls below where one is, else as near
 /// to them as can be had, so that the starts make for the walls. `above` is the cycle above with its start; the step
-/// up to it must cross nothing there.
+/// up to it must cross nothing there. `walls` are those of this layer and of the one below.
 ///
 /// A wall that lies near but on the far side of a strand of this cycle is no help: under a dome every wall lies outside
-/// of the one above, and what stands inside can be reached from inside only.
+/// of the one above, and what stands inside can be reached from inside only. Where walls lean to one side, there are some on
+/// the other side that lie inside: the starts make for these.
 pub(crate) fn foothold(
     cycle: &ClosedCurve,
-    above: Option<(&ClosedCurve, DVec2)>,
-    walls_below: &SegmentIndex,
+    above: Option<(&ClosedCurve, Foothold)>,
+    walls: [&SegmentIndex; 2],
     seam: &SeamSettings,
 ) -> Foothold {
+    let [here, below] = walls;
     let count = (cycle.length() / seam.spacing).ceil().clamp(4.0, 1e6) as usize;
-    let places = (0..count).map(|k| cycle.point_at(k as f64 * cycle.length() / count as f64));
-    let nearest = above.map(|(_, start)| cycle.nearest(start).point);
-    places
-        .chain(nearest)
-        .filter(|&place| above.is_none_or(|(next, start)| reaches(place, start, next, STEP * seam.reach)))
-        .map(|place| {
-            let wall = walls_below.nearest(place);
-            let led = wall.is_some_and(|wall| reaches(wall.point, place, cycle, f64::INFINITY));
-            let hanging = wall.map_or(f64::INFINITY, |wall| (wall.distance - HELD * seam.across).max(0.0));
-            let over_wall = led && hanging <= 0.0;
-            // Inside a dome the way to a wall is longer than it looks.
-            let far = if led { hanging } else { hanging + seam.reach };
-            (far, above.map_or(0.0, |(_, start)| start.distance(place)), Foothold { at: place, over_wall })
+    let nearest = above.map_or(0.0, |(_, start)| cycle.nearest(start.at).s);
+    let places = (0..count).map(|k| k as f64 * cycle.length() / count as f64).chain([nearest]);
+    let leads_up = |place: DVec2| {
+        above.is_none_or(|(next, start)| {
+            let step = Segment::new(place, start.at);
+            step.length() <= STEP * seam.reach && is_clear(&step, start.arc, next)
         })
-        .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)))
-        .map(|(_, _, foothold)| foothold)
-        .unwrap_or(Foothold { at: nearest.unwrap_or(cycle.points()[0]), over_wall: false })
+    };
+    let held = HELD * seam.across;
+    let places = places.map(|arc| (arc, cycle.point_at(arc))).filter(|&(_, place)| leads_up(place));
+    let rated = places.map(|(arc, at)| {
+        let wall = below.nearest(at);
+        let led = wall.is_some_and(|wall| is_clear(&Segment::new(wall.point, at), arc, cycle));
+        let hanging = wall.map_or(f64::INFINITY, |wall| (wall.distance - held).max(0.0));
+        let over_wall = led && hanging <= 0.0;
+        let step = above.map_or(0.0, |(_, start)| start.at.distance(at));
+        (led, hanging, step, Foothold { at, arc, over_wall, toward: None })
+    });
+    let rated: Vec<(bool, f64, f64, Foothold)> = rated.collect();
+    let best = |led: bool, far: &dyn Fn(&Foothold, f64) -> f64| {
+        rated
+            .iter()
+            .filter(|place| place.0 == led)
+            .map(|&(_, hanging, step, place)| (far(&place, hanging), step, place))
+            .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)))
+            .map(|(_, _, place)| place)
+    };
+    let trapped = || {
+        let from = above.map_or(cycle.point_at(nearest), |(_, start)| start.at);
+        let toward = wall_in_sight(from, here, below, LOOK / 0.73 * seam.reach);
+        let far = |place: &Foothold, hanging: f64| toward.map_or(hanging, |wall| wall.distance(place.at));
+        best(false, &far).map(|place| Foothold { toward, ..place })
+    };
+    best(true, &|_, hanging| hanging).or_else(trapped).unwrap_or(Foothold {
+        at: cycle.point_at(nearest),
+        arc: nearest,
+        over_wall: false,
+        toward: None,
+    })
 }
 
-/// Whether a step up to a cycle is short enough and crosses none of its strands.
-fn reaches(from: DVec2, to: DVec2, cycle: &ClosedCurve, reach: f64) -> bool {
-    // The step ends on a strand of the cycle: it is tested without its last thousandth, or rounding would make it cross
-    // the very strand that it ends on.
-    let step = Segment::new(from, to.lerp(from, 1e-3));
-    from.distance(to) <= reach && !cycle.segments().any(|strand| strand.crosses(&step))
+/// The place on the walls below that is nearest to a point and not behind a wall of its own layer.
+fn wall_in_sight(from: DVec2, here: &SegmentIndex, below: &SegmentIndex, spacing: f64) -> Option<DVec2> {
+    let mut places: Vec<(f64, DVec2)> = below
+        .segments()
+        .iter()
+        .flat_map(|wall| {
+            let count = (wall.length() / spacing).ceil().clamp(1.0, 1e4) as usize;
+            (0..count).map(move |k| wall.point_at(k as f64 / count as f64))
+        })
+        .map(|place| (place.distance(from), place))
+        .collect();
+    places.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let is_seen = |place: DVec2| {
+        let sight = Segment::new(from, place);
+        let mut seen = true;
+        here.for_each_near(sight, 0.0, |_, wall| seen = seen && !wall.crosses(&sight));
+        seen
+    };
+    places.into_iter().map(|(_, place)| place).find(|&place| is_seen(place))
 }
 
-/// Sees to it that the start above is held: by a wall, by a point that is asked for anyway, or by one more.
-pub(crate) fn hold_start(start: Foothold, supports: &mut Vec<SupportPoint>, placement: &Placement) {
+/// Sees to it that the start above is held: by a wall, by a point that is asked for anyway, or by one more; and, where no wall
+/// leads up to it, that strand goes on from it towards one that does. Returns the index of the point that asks for that.
+pub(crate) fn hold_start(
+    start: Foothold,
+    supports: &mut Vec<SupportPoint>,
+    settings: &Settings,
+) -> Option<usize> {
+    let placement = settings.support();
     let held_by_point =
         |s: &SupportPoint| s.needs.iter().any(|need| need.distance(start.at) <= placement.cover);
-    if !start.over_wall && !supports.iter().any(held_by_point) {
+    if start.over_wall {
+        return None;
+    }
+    if !supports.iter().any(held_by_point) {
         supports.push(SupportPoint { position: start.at, needs: vec![start.at] });
     }
+    let ahead = (start.toward? - start.at).clamp_length_max(AHEAD * settings.width);
+    supports.push(SupportPoint { position: start.at + ahead, needs: vec![start.at + ahead] });
+    Some(supports.len() - 1)
 }
 
 #[cfg(test)]
@@ -85,29 +147,46 @@ mod tests {
     fn starts_make_for_the_wall_below() {
         let seam = SeamSettings::for_width(1.5);
         let walls = SegmentIndex::of_curves([&ring(10.0)], 1.5);
+        let none = SegmentIndex::new(Vec::new(), 1.5);
         // A strand that runs out to the wall on the right, now a little higher, now a little lower.
         let strand = |layer: i32| {
             let lift = 0.07 * f64::from(layer % 2);
             let points = [(4.0, lift), (10.0, 0.2 + lift), (10.0, lift - 0.2)];
             ClosedCurve::new(points.map(|(x, y)| DVec2::new(x, y)).to_vec()).unwrap()
         };
-        let mut start = DVec2::new(4.0, 0.0);
+        let on = |curve: &ClosedCurve, p: DVec2| {
+            let near = curve.nearest(p);
+            Foothold { at: near.point, arc: near.s, over_wall: false, toward: None }
+        };
+        let mut start = on(&strand(0), DVec2::new(4.0, 0.0));
         for layer in 1..10 {
-            let next = foothold(&strand(layer), Some((&strand(layer - 1), start)), &walls, &seam).at;
-            assert!(next.distance(start) <= seam.reach);
+            let next = foothold(&strand(layer), Some((&strand(layer - 1), start)), [&none, &walls], &seam);
+            assert!(next.at.distance(start.at) <= seam.reach);
             start = next;
         }
-        assert!(walls.distance(start) <= seam.across, "{start} has reached the wall");
+        assert!(walls.distance(start.at) <= seam.across, "{start:?} has reached the wall");
     }
 
     #[test]
     fn a_start_over_nothing_is_asked_for_once() {
-        let placement = Placement::for_width(1.5);
+        let settings = Settings::for_width(1.5);
         let mut supports = Vec::new();
-        hold_start(Foothold { at: DVec2::ONE, over_wall: true }, &mut supports, &placement);
+        hold_start(
+            Foothold { at: DVec2::ONE, arc: 0.0, over_wall: true, toward: None },
+            &mut supports,
+            &settings,
+        );
         assert!(supports.is_empty(), "the wall holds it");
-        hold_start(Foothold { at: DVec2::ZERO, over_wall: false }, &mut supports, &placement);
-        hold_start(Foothold { at: DVec2::new(0.1, 0.0), over_wall: false }, &mut supports, &placement);
+        hold_start(
+            Foothold { at: DVec2::ZERO, arc: 0.0, over_wall: false, toward: None },
+            &mut supports,
+            &settings,
+        );
+        hold_start(
+            Foothold { at: DVec2::new(0.1, 0.0), arc: 0.1, over_wall: false, toward: None },
+            &mut supports,
+            &settings,
+        );
         assert_eq!(supports.len(), 1);
     }
 
@@ -120,8 +199,10 @@ mod tests {
             .splice(0..1, [(10.0, 0.0), (8.0, 0.3), (8.0, -0.3), (10.0, 0.0)].map(|(x, y)| DVec2::new(x, y)));
         let cycle = ClosedCurve::new(points).unwrap();
         let walls = SegmentIndex::of_curves([&ring(10.2)], 1.5);
+        let none = SegmentIndex::new(Vec::new(), 1.5);
         let inside = DVec2::new(7.0, 0.0);
-        let tip = foothold(&cycle, Some((&ring(7.0), inside)), &walls, &seam);
+        let inside = Foothold { at: inside, arc: 0.0, over_wall: false, toward: None };
+        let tip = foothold(&cycle, Some((&ring(7.0), inside)), [&none, &walls], &seam);
         assert!(tip.at.length() < 9.9 && !tip.over_wall, "{tip:?}");
     }
 }

@@ -7,7 +7,7 @@ use argil_curve::{ClosedCurve, DVec2, SegmentIndex};
 use argil_elastic::{ElasticError, ElasticSolver, Path};
 use argil_mesh::Mesh;
 use argil_route::{Cycle, LayerInput, RouteError, Router};
-use argil_seam::{SeamError, SeamSettings};
+use argil_seam::SeamError;
 use argil_slice::{Layer, SliceError};
 use argil_support::SupportPoint;
 use argil_taut::{SlackPath, pulled_taut};
@@ -64,13 +64,15 @@ pub trait Tauten {
 
 /// Chooses where each layer begins.
 pub trait Seam {
-    /// The arc of the start on each cycle, bottom first.
+    /// The arc of the start on each cycle, bottom first. `footholds` are the arcs of a chain that was kept open while the
+    /// layers were planned, one a cycle.
     ///
     /// # Errors
     /// When two layers cannot be joined by a short, held step.
     fn starts(
         &mut self,
         cycles: &[ClosedCurve],
+        footholds: &[f64],
         settings: &Settings,
         cost: &dyn Fn(usize, DVec2) -> f64,
     ) -> Result<Vec<f64>, SeamError>;
@@ -161,12 +163,10 @@ impl Seam for BestChain {
     fn starts(
         &mut self,
         cycles: &[ClosedCurve],
+        footholds: &[f64],
         settings: &Settings,
         cost: &dyn Fn(usize, DVec2) -> f64,
     ) -> Result<Vec<f64>, SeamError> {
-        // Where strand dies on a wall the one way up may be narrow: a chain that is not found is looked for more finely.
-        let usual = settings.seaming();
-        let fine = SeamSettings { spacing: usual.spacing / 4.0, ..usual };
-        argil_seam::seam_chain(cycles, &usual, cost).or_else(|_| argil_seam::seam_chain(cycles, &fine, cost))
+        argil_seam::seam_chain_among(cycles, footholds, &settings.seaming(), cost)
     }
 }

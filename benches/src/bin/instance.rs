@@ -1,0 +1,256 @@
+//! Plans the tour of one layer from a file, and prints one line of JSON with what it took.
+//!
+//! ```text
+//! instance LAYER.json [--warm PREVIOUS.json] [--kicks PER_NODE | --budget-ms MS]
+//!          [--seed N] [--seeds N] [--rounds N] [--best UM] [--compare]
+//! ```
+//!
+//! Times are the least of some rounds, in milliseconds of one thread. `--warm` starts from the tour of another layer,
+//! whose own search is not timed. `--kicks` is the search's budget a node; `--budget-ms` chooses it so that candidates
+//! and tour take about that long here. `--seeds` repeats the tour with that many seeds and adds mean and longest.
+//! `--best` adds the excess over a known length; `--compare` measures petgraph's Dijkstra and one with a plain heap beside it.
+
+use std::error::Error;
+use std::hint::black_box;
+use std::io::Write;
+use std::process::ExitCode;
+use std::time::Instant;
+use std::{env, fs, io};
+
+use argil_benches::{Instance, by_heap, by_petgraph, petgraph_of};
+use argil_graph::{DistanceMatrix, PathGraph};
+use argil_tour::{Metric, Tour, TourOptions, TourSolver};
+use serde_json::{Map, Value, json};
+
+/// How many nearest terminals are candidates, besides those whose cells touch.
+const NEAREST: usize = 5;
+
+/// Kicks a node for the tour above, which is there before the layer is begun.
+const KICKS_ABOVE: f64 = 40.0;
+
+fn main() -> ExitCode {
+    match run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            // Nothing can be done if even this fails.
+            drop(writeln!(io::stderr(), "instance: {error}"));
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// What the command line asks for.
+struct Arguments {
+    layer: String,
+    warm: Option<String>,
+    kicks: Option<f64>,
+    budget_ms: Option<f64>,
+    seed: u64,
+    seeds: u64,
+    rounds: usize,
+    best: Option<f64>,
+    compare: bool,
+}
+
+impl Arguments {
+    fn read(mut words: impl Iterator<Item = String>) -> Result<Self, Box<dyn Error>> {
+        let mut read = Self {
+            layer: String::new(),
+            warm: None,
+            kicks: None,
+            budget_ms: None,
+            seed: 0,
+            seeds: 1,
+            rounds: 5,
+            best: None,
+            compare: false,
+        };
+        while let Some(word) = words.next() {
+            let mut value = || words.next().ok_or_else(|| format!("{word} wants a value"));
+            match word.as_str() {
+                "--warm" => read.warm = Some(value()?),
+                "--kicks" => read.kicks = Some(value()?.parse()?),
+                "--budget-ms" => read.budget_ms = Some(value()?.parse()?),
+                "--seed" => read.seed = value()?.parse()?,
+                "--seeds" => read.seeds = value()?.parse::<u64>()?.max(1),
+                "--rounds" => read.rounds = value()?.parse::<usize>()?.max(1),
+                "--best" => read.best = Some(value()?.parse()?),
+                "--compare" => read.compare = true,
+                layer if read.layer.is_empty() && !layer.starts_with("--") => read.layer = word,
+                other => return Err(format!("{other} is not understood").into()),
+            }
+        }
+        if read.layer.is_empty() {
+            return Err("which layer? Give the path of its JSON".into());
+        }
+        Ok(read)
+    }
+
+    fn options(&self) -> TourOptions {
+        let plain = TourOptions { neighbours: 0, seed: self.seed, ..TourOptions::default() };
+        TourOptions { kicks_per_node: self.kicks.unwrap_or(plain.kicks_per_node), ..plain }
+    }
+}
+
+/// The distances as the search asks for them.
+struct Lengths<'a>(&'a DistanceMatrix);
+
+impl Metric for Lengths<'_> {
+    fn nodes(&self) -> usize {
+        self.0.len()
+    }
+
+    #[inline]
+    fn distance(&self, a: usize, b: usize) -> f64 {
+        self.0.get(a, b)
+    }
+}
+
+/// The least time of some rounds in milliseconds, and what the last one gave.
+fn timed<T>(rounds: usize, mut work: impl FnMut() -> T) -> (f64, Option<T>) {
+    let (mut least, mut last) = (f64::INFINITY, None);
+    for _ in 0..rounds {
+        let start = Instant::now();
+        let done = black_box(work());
+        least = least.min(start.elapsed().as_secs_f64() * 1e3);
+        last = Some(done);
+    }
+    (least, last)
+}
+
+/// Candidates and tour with no thought of time.
+fn tour_of(graph: &PathGraph, among: &[u32], start: Option<&[usize]>, options: &TourOptions) -> Tour {
+    let matrix = graph.distances(among);
+    TourSolver::new().solve(&Lengths(&matrix), &graph.nearby(among, NEAREST), start, options)
+}
+
+/// The kicks a node with which `work` takes about `budget_ms`.
+fn within(budget_ms: f64, mut work: impl FnMut(f64) -> f64) -> f64 {
+    let (without, with) = (work(0.0), work(2.0));
+    let a_kick = ((with - without) / 2.0).max(1e-6);
+    let mut kicks = ((budget_ms - without) / a_kick).max(0.0);
+    // Later kicks change less and cost less or more than the first; a few corrections settle that.
+    for _ in 0..3 {
+        let took = work(kicks);
+        if took > without {
+            kicks *= ((budget_ms - without) / (took - without)).clamp(0.0, 2.0);
+        }
+    }
+    kicks
+}
+
+fn run() -> Result<(), Box<dyn Error>> {
+    let arguments = Arguments::read(env::args().skip(1))?;
+    let read = |path: &String| -> Result<Instance, Box<dyn Error>> {
+        let text = fs::read_to_string(path).map_err(|error| format!("{path}: {error}"))?;
+        Instance::from_json(&text).map_err(|error| format!("{path}: {error}").into())
+    };
+    let mut layer = read(&arguments.layer)?;
+    let graph = layer.graph()?;
+    let named = layer.terminals.clone();
+    let unordered = graph.clone();
+    graph.arrange(&mut layer.terminals);
+    let among = &layer.terminals;
+    let mut found = Map::new();
+    found.insert("name".into(), json!(layer.name));
+    found.insert("T".into(), json!(among.len()));
+    found.insert("V".into(), json!(graph.vertex_count()));
+
+    let rounds = arguments.rounds;
+    let mut order_ms = f64::INFINITY;
+    let mut again = named.clone();
+    let (both_ms, matrix) = timed(rounds, || {
+        // A graph keeps its order, so that every round has a graph of its own; copying it is not timed.
+        let fresh = unordered.clone();
+        let start = Instant::now();
+        fresh.arrange(&mut again);
+        let ordered = start.elapsed().as_secs_f64() * 1e3;
+        order_ms = order_ms.min(ordered);
+        fresh.distances(among)
+    });
+    let (distances_ms, _) = timed(rounds, || graph.distances(among));
+    let matrix = matrix.ok_or("no round was run")?;
+    let sum: f64 = (0..among.len()).map(|k| matrix.row(k).iter().sum::<f64>()).sum();
+    found.insert("order_ms".into(), json!(order_ms));
+    found.insert("distances_ms".into(), json!(distances_ms));
+    found.insert("order_and_distances_ms".into(), json!(both_ms));
+    found.insert("distances_sum_um".into(), json!(sum));
+    if arguments.compare {
+        compare(&graph, among, &matrix, order_ms + distances_ms, &mut found);
+    }
+
+    let warm = match &arguments.warm {
+        Some(path) => {
+            let above = read(path)?;
+            let options =
+                TourOptions { neighbours: 0, kicks_per_node: KICKS_ABOVE, ..TourOptions::default() };
+            let tour = tour_of(&above.graph()?, &above.terminals, None, &options);
+            Some((above, tour))
+        }
+        None => None,
+    };
+    let (start_ms, start) =
+        timed(rounds, || warm.as_ref().map(|(above, tour)| layer.order_of(above, &tour.order)));
+    let start = start.flatten();
+    let (candidates_ms, candidates) = timed(rounds, || graph.nearby(among, NEAREST));
+    let candidates = candidates.unwrap_or_default();
+    let metric = Lengths(&matrix);
+    let mut solver = TourSolver::new();
+    let mut options = arguments.options();
+    if let Some(budget) = arguments.budget_ms {
+        options.kicks_per_node = within(budget - candidates_ms - start_ms, |kicks_per_node| {
+            let options = TourOptions { kicks_per_node, ..options };
+            timed(rounds, || solver.solve(&metric, &candidates, start.as_deref(), &options)).0
+        });
+    }
+    let (tour_ms, tour) = timed(rounds, || solver.solve(&metric, &candidates, start.as_deref(), &options));
+    let length = tour.ok_or("no round was run")?.length;
+    if start.is_some() {
+        found.insert("start_ms".into(), json!(start_ms));
+    }
+    found.insert("candidates_ms".into(), json!(candidates_ms));
+    found.insert("tour_ms".into(), json!(tour_ms));
+    found.insert("kicks_per_node".into(), json!(options.kicks_per_node));
+    found.insert("tour_um".into(), json!(length));
+    let excess = |length: f64| arguments.best.map(|best| json!(100.0 * (length / best - 1.0)));
+    found.extend(excess(length).map(|value| ("excess_percent".into(), value)));
+    if arguments.seeds > 1 {
+        let lengths: Vec<f64> = (0..arguments.seeds)
+            .map(|seed| {
+                let options = TourOptions { seed: arguments.seed + seed, ..options };
+                solver.solve(&metric, &candidates, start.as_deref(), &options).length
+            })
+            .collect();
+        let mean = lengths.iter().sum::<f64>() / lengths.len() as f64;
+        let longest = lengths.iter().copied().fold(0.0, f64::max);
+        found.insert("tour_um_mean".into(), json!(mean));
+        found.insert("tour_um_longest".into(), json!(longest));
+        found.extend(excess(mean).map(|value| ("excess_percent_mean".into(), value)));
+        found.extend(excess(longest).map(|value| ("excess_percent_longest".into(), value)));
+    }
+    writeln!(io::stdout(), "{}", Value::Object(found))?;
+    Ok(())
+}
+
+/// The same distances by one search a terminal, and how much longer that takes.
+fn compare(
+    graph: &PathGraph,
+    among: &[u32],
+    matrix: &DistanceMatrix,
+    ours: f64,
+    found: &mut Map<String, Value>,
+) {
+    let other = petgraph_of(graph);
+    let (petgraph_ms, by_petgraph) = timed(1, || by_petgraph(&other, among));
+    let (heap_ms, by_heap) = timed(1, || by_heap(graph, among));
+    let same = |others: Option<Vec<f64>>| {
+        others.is_some_and(|others| {
+            (0..among.len()).flat_map(|k| matrix.row(k)).zip(&others).all(|(a, b)| a.to_bits() == b.to_bits())
+        })
+    };
+    found.insert("petgraph_ms".into(), json!(petgraph_ms));
+    found.insert("petgraph_ratio".into(), json!(petgraph_ms / ours));
+    found.insert("heap_ms".into(), json!(heap_ms));
+    found.insert("heap_ratio".into(), json!(heap_ms / ours));
+    found.insert("same_to_the_bit".into(), json!(same(by_petgraph) && same(by_heap)));
+}

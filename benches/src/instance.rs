@@ -1,0 +1,71 @@
+//! One layer of path planning as a file: a graph with lengths in whole micrometres.
+
+use argil_curve::DVec2;
+use argil_graph::{GraphError, PathGraph};
+use serde::Deserialize;
+
+/// How far from its place in the layer above a terminal may lie, mm: `ε_across` of the paper's clay, and the grid.
+const SAME: f64 = 0.46;
+
+/// A layer as its JSON has it. Distances in it are whole numbers, so that all solvers must agree to the unit.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Instance {
+    /// What it is called.
+    #[serde(default)]
+    pub name: String,
+    /// Where the vertices are, mm.
+    pub vertices: Vec<(f64, f64)>,
+    /// Pairs of vertices and the length of the edge between them, µm.
+    pub edges: Vec<(u32, u32, f64)>,
+    /// The vertices that the tour visits.
+    pub terminals: Vec<u32>,
+}
+
+impl Instance {
+    /// The layer that a text describes.
+    ///
+    /// # Errors
+    /// What serde says of a text that is no layer.
+    pub fn from_json(text: &str) -> Result<Self, serde_json::Error> {
+        serde_json::from_str(text)
+    }
+
+    /// Its graph.
+    ///
+    /// # Errors
+    /// As [`PathGraph::from_edges`].
+    pub fn graph(&self) -> Result<PathGraph, GraphError> {
+        let positions = self.vertices.iter().map(|&p| DVec2::from(p)).collect();
+        PathGraph::from_edges(positions, &[], &self.terminals, &self.edges)
+    }
+
+    /// The terminals in the order in which a tour of the layer above visits them: each has the place of the nearest
+    /// terminal there, if there is one within a drift from layer to layer. Others are left out.
+    #[must_use]
+    pub fn order_of(&self, above: &Instance, tour: &[usize]) -> Vec<usize> {
+        let place = |layer: &Instance, k: usize| {
+            let vertex = layer.terminals.get(k).and_then(|&v| layer.vertices.get(v as usize));
+            vertex.map_or(DVec2::NAN, |&p| DVec2::from(p))
+        };
+        // The places of the tour by x, so that few are looked at for each terminal.
+        let mut visited: Vec<(f64, f64, usize)> =
+            tour.iter().map(|&k| place(above, k)).enumerate().map(|(turn, p)| (p.x, p.y, turn)).collect();
+        visited.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut order: Vec<(usize, usize)> = Vec::new();
+        for k in 0..self.terminals.len() {
+            let p = place(self, k);
+            let first = visited.partition_point(|v| v.0 < p.x - SAME);
+            let near = visited[first..].iter().take_while(|v| v.0 <= p.x + SAME);
+            let nearest = near
+                .map(|v| (p.distance(DVec2::new(v.0, v.1)), v.2))
+                .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            if let Some((distance, turn)) = nearest
+                && distance <= SAME
+            {
+                order.push((turn, k));
+            }
+        }
+        order.sort_unstable();
+        order.into_iter().map(|(_, k)| k).collect()
+    }
+}

@@ -1,0 +1,212 @@
+//! The contact ledger: where the strand touches the model's outside, over which layers and why. A guide for cleaning.
+
+use crate::contact::Touch;
+use argil_curve::{DVec2, Segment, SegmentIndex};
+
+/// In w: touches of neighbouring layers that come this near are one place.
+const ONE_PLACE: f64 = 1.0;
+
+/// Why the strand touches the model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "snake_case"))]
+#[non_exhaustive]
+pub enum ContactCause {
+    /// The strand leaves or joins the wall here, as it must somewhere.
+    Root,
+    /// It lies in a hole of the layer's outline, with the model all round.
+    Enclosed,
+    /// It holds a wall of the next layer that juts out by less than one bead: no room was left between the two.
+    Overhang,
+    /// It runs between two parts of the model less than two beads apart, or along both sides of a fold.
+    Narrow,
+    /// It holds strand of the next layer that lies as near to the model, or nothing at all.
+    Passing,
+}
+
+impl ContactCause {
+    /// The name used in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Root => "root",
+            Self::Enclosed => "enclosed",
+            Self::Overhang => "below an overhang",
+            Self::Narrow => "between two parts",
+            Self::Passing => "passing by",
+        }
+    }
+}
+
+/// A place where non-model strand lies within one bead of the model's wall, outside of the model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub struct ContactPlace {
+    /// Why it is there.
+    pub cause: ContactCause,
+    /// The lowest of its layers, by the file's own number.
+    pub first_layer: i64,
+    /// The highest of its layers.
+    pub last_layer: i64,
+    /// Its middle in the plane, mm.
+    #[cfg_attr(feature = "serde", serde(serialize_with = "as_pair"))]
+    pub at: DVec2,
+    /// Length of strand that touches, over all its layers, mm.
+    pub length: f64,
+}
+
+#[cfg(feature = "serde")]
+fn as_pair<S: serde::Serializer>(at: &DVec2, to: S) -> Result<S::Ok, S::Error> {
+    serde::Serialize::serialize(&[at.x, at.y], to)
+}
+
+/// Gathers the touches of layer after layer into places.
+#[derive(Debug, Default)]
+pub(crate) struct Ledger {
+    places: Vec<Place>,
+    /// The touches of the layer before: where, and the place that each belongs to.
+    before: Vec<(Touch, usize)>,
+    before_layer: Option<i64>,
+}
+
+#[derive(Debug)]
+struct Place {
+    /// The place that this one has become part of, or itself.
+    part_of: usize,
+    cause: ContactCause,
+    first: i64,
+    last: i64,
+    length: f64,
+    /// Sum of places by length, mm².
+    moment: DVec2,
+}
+
+impl Ledger {
+    /// Takes in a layer's touches. Those near a touch of the layer before with the same cause go to its place; places
+    /// that meet so become one.
+    ///
+    /// # Complexity
+    /// Near linear in the points of both layers' touches.
+    pub(crate) fn layer(&mut self, number: i64, touches: Vec<Touch>, width: f64) {
+        if self.before_layer.is_none_or(|before| before.checked_add(1) != Some(number)) {
+            self.before.clear();
+        }
+        let mut segments = Vec::new();
+        let mut owner = Vec::new();
+        for (touch, place) in &self.before {
+            let spans = touch.points.windows(2).map(|e| Segment::new(e[0], e[1]));
+            let alone = touch.points.first().map(|&p| Segment::new(p, p));
+            segments.extend(spans.chain(alone));
+            owner.resize(segments.len(), (touch.cause, *place));
+        }
+        let index = SegmentIndex::new(segments, 0.75 * width);
+        let mut now = Vec::with_capacity(touches.len());
+        for touch in touches {
+            let mut place = None;
+            for &point in &touch.points {
+                let around = Segment::new(point, point);
+                index.for_each_near(around, ONE_PLACE * width, |k, segment| {
+                    let (cause, other) = owner[k];
+                    if cause == touch.cause && segment.distance(point) <= ONE_PLACE * width {
+                        let other = self.places.whole(other);
+                        place = Some(place.map_or(other, |place| self.places.joined(place, other)));
+                    }
+                });
+            }
+            let place = place.unwrap_or_else(|| self.places.opened(touch.cause, number));
+            let entry = &mut self.places[place];
+            entry.last = number;
+            entry.length += touch.length;
+            entry.moment += touch.length * touch.middle;
+            now.push((touch, place));
+        }
+        self.before = now;
+        self.before_layer = Some(number);
+    }
+
+    /// All places, the lowest first.
+    pub(crate) fn finished(self) -> Vec<ContactPlace> {
+        let whole = self.places.iter().enumerate().filter(|(k, place)| place.part_of == *k);
+        let mut places: Vec<ContactPlace> = whole
+            .map(|(_, place)| ContactPlace {
+                cause: place.cause,
+                first_layer: place.first,
+                last_layer: place.last,
+                at: place.moment / place.length.max(f64::MIN_POSITIVE),
+                length: place.length,
+            })
+            .collect();
+        places.sort_by_key(|place| (place.first_layer, place.last_layer, place.cause));
+        places
+    }
+}
+
+/// Places that may become part of one another: a forest of sets, each named by its lowest index.
+trait Sets {
+    fn whole(&self, place: usize) -> usize;
+    fn joined(&mut self, a: usize, b: usize) -> usize;
+    fn opened(&mut self, cause: ContactCause, layer: i64) -> usize;
+}
+
+impl Sets for Vec<Place> {
+    fn whole(&self, mut place: usize) -> usize {
+        while self[place].part_of != place {
+            place = self[place].part_of;
+        }
+        place
+    }
+
+    fn joined(&mut self, a: usize, b: usize) -> usize {
+        let (a, b) = (self.whole(a), self.whole(b));
+        let (keeps, goes) = (a.min(b), a.max(b));
+        if keeps != goes {
+            let (first, last) = (self[goes].first, self[goes].last);
+            let (length, moment) = (self[goes].length, self[goes].moment);
+            self[goes].part_of = keeps;
+            let whole = &mut self[keeps];
+            whole.first = whole.first.min(first);
+            whole.last = whole.last.max(last);
+            whole.length += length;
+            whole.moment += moment;
+        }
+        keeps
+    }
+
+    fn opened(&mut self, cause: ContactCause, layer: i64) -> usize {
+        let place = self.len();
+        let (length, moment) = (0.0, DVec2::ZERO);
+        self.push(Place { part_of: place, cause, first: layer, last: layer, length, moment });
+        place
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn touch(cause: ContactCause, from: (f64, f64), to: (f64, f64)) -> Touch {
+        let points = vec![DVec2::from(from), DVec2::from(to)];
+        Touch { cause, middle: 0.5 * (points[0] + points[1]), length: points[0].distance(points[1]), points }
+    }
+
+    #[test]
+    fn touches_above_one_another_are_one_place() {
+        use ContactCause::{Passing, Root};
+        let mut ledger = Ledger::default();
+        ledger.layer(
+            3,
+            vec![touch(Passing, (0.0, 0.0), (2.0, 0.0)), touch(Passing, (9.0, 0.0), (9.0, 4.0))],
+            1.5,
+        );
+        ledger.layer(
+            4,
+            vec![touch(Passing, (2.5, 0.0), (8.0, 0.0)), touch(Root, (0.0, 0.0), (1.0, 0.0))],
+            1.5,
+        );
+        // What is bridged by the layer above becomes one, the root stays by itself; a gap of a layer ends a place.
+        ledger.layer(6, vec![touch(Passing, (2.5, 0.0), (4.5, 0.0))], 1.5);
+        let places = ledger.finished();
+        let told: Vec<_> = places.iter().map(|p| (p.cause, p.first_layer, p.last_layer, p.length)).collect();
+        assert_eq!(told, [(Passing, 3, 4, 11.5), (Root, 4, 4, 1.0), (Passing, 6, 6, 2.0)]);
+        assert!((places[0].at.x - (2.0 + 36.0 + 5.25 * 5.5) / 11.5).abs() < 1e-9);
+    }
+}

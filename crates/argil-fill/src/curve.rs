@@ -1,0 +1,56 @@
+//! Closed curves of beads, with what each stretch is for.
+
+use argil_curve::DVec2;
+
+/// What a stretch of a fill is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Bead {
+    /// Part of this wall, counted from the outline.
+    Wall(usize),
+    /// Part of a ring inside of the walls.
+    Fill,
+    /// The leg of a joint, or a detour into a place that would stay bare.
+    Joint,
+}
+
+impl Bead {
+    pub(crate) fn of_ring(wall: Option<usize>) -> Self {
+        wall.map_or(Self::Fill, Self::Wall)
+    }
+}
+
+/// A closed curve of beads that does not cross itself.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FillCurve {
+    /// The vertices in mm, without repeating the first at the end.
+    pub points: Vec<DVec2>,
+    /// What the stretch from vertex k to vertex k + 1 is; the last one leads back to vertex 0.
+    pub beads: Vec<Bead>,
+}
+
+impl FillCurve {
+    /// Length of all stretches, mm.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        crate::ring::perimeter(&self.points)
+    }
+
+    /// Adds a vertex and what begins there; one in the same place as the last replaces what begins there.
+    pub(crate) fn push(&mut self, point: DVec2, bead: Bead) {
+        match (self.points.last(), self.beads.last_mut()) {
+            (Some(&last), Some(kind)) if last == point => *kind = bead,
+            _ => {
+                self.points.push(point);
+                self.beads.push(bead);
+            }
+        }
+    }
+
+    /// Drops the last vertices where they repeat the first.
+    pub(crate) fn close(&mut self) {
+        while self.points.len() > 1 && self.points.first() == self.points.last() {
+            self.points.pop();
+            self.beads.pop();
+        }
+    }
+}

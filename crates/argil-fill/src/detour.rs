@@ -1,0 +1,237 @@
+//! Mending: the nearest strand makes a detour into what would stay bare.
+
+use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex};
+
+use crate::bare::BareDisc;
+use crate::curve::{Bead, FillCurve};
+
+/// A stretch of a curve that is replaced by two straight legs.
+#[derive(Clone, Copy, Debug)]
+struct Detour {
+    curve: usize,
+    /// Arc at which it begins, and how much of the curve it replaces.
+    start: f64,
+    taken: f64,
+    corners: [DVec2; 3],
+}
+
+/// Detours that are tried: how far towards the middle of the disc, half of the replaced stretch in w.
+const TOWARDS: [f64; 3] = [1.0, 0.8, 0.6];
+const HALVES: [f64; 3] = [0.5, 0.35, 0.2];
+
+/// Shifts along the strand that are tried, in w.
+const SHIFT: f64 = 0.2;
+const SHIFTS: i32 = 6;
+
+/// What a shift of one bead is worth in length of detour.
+const SHIFT_COST: f64 = 0.3;
+
+/// A tip keeps so far away from all other strand, in w.
+const TIP_APART: f64 = 0.45;
+
+/// Legs keep so far away from strand that is not beside their ends, in w.
+const LEG_APART: f64 = 0.1;
+
+/// All curves with a detour into each disc that has room for one; how many there are.
+pub(crate) fn mended(curves: &mut [FillCurve], discs: &[BareDisc], width: f64, grid: f64) -> usize {
+    let closed: Vec<Option<ClosedCurve>> =
+        curves.iter().map(|curve| ClosedCurve::new(curve.points.clone()).ok()).collect();
+    // A curve whose points repeat would have other indices than its beads.
+    let usable = |k: usize| closed[k].as_ref().filter(|c| c.segment_count() == curves[k].points.len());
+    let mut owner: Vec<(usize, usize)> = Vec::new();
+    let mut segments: Vec<Segment> = Vec::new();
+    for k in 0..curves.len() {
+        if let Some(curve) = usable(k) {
+            owner.extend((0..curve.segment_count()).map(|segment| (k, segment)));
+            segments.extend(curve.segments());
+        }
+    }
+    let strand = Strand { index: SegmentIndex::new(segments, width), owner, width, grid };
+    let mut made: Vec<Detour> = Vec::new();
+    for disc in discs {
+        let Some((k, segment)) = strand.nearest_free(disc, curves) else { continue };
+        let Some(curve) = usable(k) else { continue };
+        made.extend(strand.detour((k, segment), curve, &curves[k].beads, disc.centre, &made));
+    }
+    for (k, curve) in curves.iter_mut().enumerate() {
+        if let Some(closed) = &closed[k] {
+            let own: Vec<Detour> = made.iter().filter(|detour| detour.curve == k).copied().collect();
+            if !own.is_empty() {
+                *curve = replaced(curve, closed, own);
+            }
+        }
+    }
+    made.len()
+}
+
+/// All strand, for questions of distance.
+struct Strand {
+    index: SegmentIndex,
+    /// Curve and segment of each segment of the index.
+    owner: Vec<(usize, usize)>,
+    width: f64,
+    grid: f64,
+}
+
+impl Strand {
+    /// The nearest segment that is no wall.
+    fn nearest_free(&self, disc: &BareDisc, curves: &[FillCurve]) -> Option<(usize, usize)> {
+        let mut best: Option<(f64, (usize, usize))> = None;
+        let spot = Segment::new(disc.centre, disc.centre);
+        self.index.for_each_near(spot, 0.5 * disc.diameter + 1.2 * self.width, |k, segment| {
+            let (curve, own) = self.owner[k];
+            let distance = segment.distance(disc.centre);
+            let nearer =
+                best.is_none_or(|(least, at)| distance < least || (distance <= least && (curve, own) < at));
+            if nearer && !matches!(curves[curve].beads[own], Bead::Wall(_)) {
+                best = Some((distance, (curve, own)));
+            }
+        });
+        best.map(|(_, at)| at)
+    }
+
+    /// The cheapest detour from near a segment to `centre`; the fullest that is possible.
+    fn detour(
+        &self,
+        (number, segment): (usize, usize),
+        curve: &ClosedCurve,
+        beads: &[Bead],
+        centre: DVec2,
+        made: &[Detour],
+    ) -> Option<Detour> {
+        let near = curve.on_segment(segment, centre);
+        for towards in TOWARDS {
+            let tip = (near.point.lerp(centre, towards) / self.grid).round() * self.grid;
+            let mut best: Option<(f64, Detour)> = None;
+            for half in HALVES {
+                for shift in -SHIFTS..=SHIFTS {
+                    let shift = f64::from(shift) * SHIFT * self.width;
+                    let half = half * self.width;
+                    let start = near.s + shift - half;
+                    let corner = |arc: f64| (curve.point_at(arc) / self.grid).round() * self.grid;
+                    let corners = [corner(start), tip, corner(start + 2.0 * half)];
+                    let detour =
+                        Detour { curve: number, start: curve.wrapped(start), taken: 2.0 * half, corners };
+                    let length = corners[0].distance(tip) + corners[2].distance(tip);
+                    let cost = length - 2.0 * half + SHIFT_COST * shift.abs();
+                    if best.as_ref().is_none_or(|(least, _)| cost < *least)
+                        && self.fits(&detour, curve, beads, made)
+                    {
+                        best = Some((cost, detour));
+                    }
+                }
+            }
+            if let Some((_, detour)) = best {
+                return Some(detour);
+            }
+        }
+        None
+    }
+
+    fn fits(&self, detour: &Detour, curve: &ClosedCurve, beads: &[Bead], made: &[Detour]) -> bool {
+        let (n, length) = (curve.segment_count(), curve.length());
+        if detour.taken > 0.25 * length {
+            return false;
+        }
+        // What is replaced must be no wall, nor the ends of its neighbours.
+        let first = curve.locate(detour.start).segment;
+        let last = curve.locate(curve.wrapped(detour.start + detour.taken)).segment;
+        let count = (last + n - first) % n + 1;
+        if (0..count).any(|k| matches!(beads[(first + k) % n], Bead::Wall(_))) {
+            return false;
+        }
+        let margin = 0.1 * self.width;
+        let meets = |other: &Detour| {
+            let gap = (other.start - detour.start).rem_euclid(length);
+            other.curve == detour.curve
+                && (gap < detour.taken + margin || length - gap < other.taken + margin)
+        };
+        if made.iter().any(meets) {
+            return false;
+        }
+        let [from, tip, to] = detour.corners;
+        let legs = [Segment::new(from, tip), Segment::new(to, tip)];
+        let inner = legs.map(|leg| Segment::new(leg.point_at(0.05), tip));
+        let mut clear = true;
+        for leg in inner {
+            self.index.for_each_near(leg, LEG_APART * self.width, |k, other| {
+                let (number, own) = self.owner[k];
+                let place = if number == detour.curve { (own + n - first) % n } else { usize::MAX };
+                // Strictly inside of what is replaced: it will be gone.
+                let gone = place != usize::MAX && place > 0 && place + 1 < count;
+                let beside = place == 0
+                    || (place != usize::MAX && (place + 1 == count || place == count || place == n - 1));
+                clear &= gone
+                    || if beside {
+                        !self.remains_crossed(leg, other, detour, curve, own)
+                    } else {
+                        leg.distance_to(&other) >= LEG_APART * self.width
+                    };
+            });
+        }
+        if !clear {
+            return false;
+        }
+        let mut tip_clear = true;
+        self.index.for_each_near(Segment::new(tip, tip), TIP_APART * self.width, |k, other| {
+            let (number, own) = self.owner[k];
+            let replaced = number == detour.curve && (own + n - first) % n < count;
+            tip_clear &= replaced || other.distance(tip) >= TIP_APART * self.width;
+        });
+        let others = made.iter().flat_map(|d| {
+            [Segment::new(d.corners[0], d.corners[1]), Segment::new(d.corners[1], d.corners[2])]
+        });
+        tip_clear
+            && others
+                .into_iter()
+                .all(|other| legs.iter().all(|leg| leg.distance_to(&other) > LEG_APART * self.width))
+    }
+
+    /// Whether a leg crosses what remains of a segment beside the detour.
+    fn remains_crossed(
+        &self,
+        leg: Segment,
+        other: Segment,
+        detour: &Detour,
+        curve: &ClosedCurve,
+        own: usize,
+    ) -> bool {
+        let length = curve.length();
+        let into = (detour.start - curve.arc_of(own)).rem_euclid(length);
+        let out = (detour.start + detour.taken - curve.arc_of(own)).rem_euclid(length);
+        let size = other.length();
+        let before = (into < size).then(|| Segment::new(other.start, other.point_at(into / size)));
+        let after = (out < size).then(|| Segment::new(other.point_at(out / size), other.end));
+        match (before, after) {
+            (None, None) => leg.crosses(&other),
+            parts => [parts.0, parts.1].into_iter().flatten().any(|part| leg.crosses(&part)),
+        }
+    }
+}
+
+/// The curve with its detours in place of what they replace.
+fn replaced(curve: &FillCurve, closed: &ClosedCurve, mut detours: Vec<Detour>) -> FillCurve {
+    let (n, length) = (closed.segment_count(), closed.length());
+    detours.sort_by(|a, b| a.start.total_cmp(&b.start));
+    let mut result = FillCurve::default();
+    for (number, detour) in detours.iter().enumerate() {
+        let next = detours[(number + 1) % detours.len()];
+        let [from, tip, to] = detour.corners;
+        result.push(from, Bead::Joint);
+        result.push(tip, Bead::Joint);
+        let end = closed.wrapped(detour.start + detour.taken);
+        let first = closed.locate(end).segment;
+        result.push(to, curve.beads[first]);
+        let span =
+            if detours.len() == 1 { length - detour.taken } else { (next.start - end).rem_euclid(length) };
+        for k in 0..n {
+            let vertex = (first + 1 + k) % n;
+            if (closed.arc_of(vertex) - end).rem_euclid(length) >= span {
+                break;
+            }
+            result.push(curve.points[vertex], curve.beads[vertex]);
+        }
+    }
+    result.close();
+    result
+}

@@ -1,0 +1,150 @@
+//! A region to closed curves of beads.
+
+use argil_curve::{DVec2, Segment, SegmentIndex, self_crossings};
+use geo::Area;
+use geo_types::{LineString, MultiPolygon, Polygon};
+
+use crate::bare::{BareDisc, scan};
+use crate::curve::FillCurve;
+use crate::detour::mended;
+use crate::joint::Joint;
+use crate::merge::merge;
+use crate::offset::{dilation, rings};
+use crate::ring::Ring;
+use crate::rings::rings_of;
+use crate::{FillError, FillOptions};
+
+/// A filled region.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Fill {
+    /// The curves: one for each part of the region that joints can reach from the others. None crosses itself or another.
+    pub curves: Vec<FillCurve>,
+    /// The joints that made them.
+    pub joints: Vec<Joint>,
+    /// Bare discs wider than [`FillOptions::bare`] that no detour could mend, widest first.
+    pub bare: Vec<BareDisc>,
+    /// What was reached.
+    pub figures: Figures,
+}
+
+/// What a fill has reached. Areas are counted on a grid of about a third of a bead.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Figures {
+    /// Rings that were merged, those that were given included.
+    pub rings: usize,
+    /// Detours into places that would have stayed bare.
+    pub detours: usize,
+    /// Length of all curves, mm.
+    pub length: f64,
+    /// Area that a bead can reach without leaving the region, mm².
+    pub reachable: f64,
+    /// Share of it that lies under a bead.
+    pub coverage: f64,
+    /// Share of the clay that lies on other clay: 1 − area / (length · width).
+    pub overdeposit: f64,
+}
+
+/// Largest coordinate, in w and in steps of the grid: beyond, offsets lose the bead to rounding.
+const FARTHEST: f64 = 1e6;
+const FARTHEST_STEPS: f64 = 1e9;
+
+/// Fills a region with beads one width apart, joined to as few closed curves as possible.
+///
+/// The region's boundary is inset by (k + ½) w for every k, every strip that stays bare gets a loop there and back, and
+/// all rings are [merged](merge). Where a disc stays bare, the nearest strand that is no wall makes a detour into it.
+///
+/// `beside` are rings that exist already next to the region, such as the walls round it. They are merged with the fill and
+/// stay as they are but for the joints. `avoid` are places to keep joints away from, such as [`Joint::middle`] of
+/// the layer below.
+///
+/// # Errors
+/// See [`FillError`].
+///
+/// # Complexity
+/// Near linear in the length of the fill: offsets level by level, a few queries for every fifth of a bead.
+///
+/// # Example
+/// ```
+/// use argil_fill::{FillOptions, fill};
+/// use geo_types::{MultiPolygon, polygon};
+/// let tile = MultiPolygon(vec![polygon![(x: 0.0, y: 0.0), (x: 30.0, y: 0.0), (x: 30.0, y: 30.0), (x: 0.0, y: 30.0)]]);
+/// let filled = fill(&tile, &[], &FillOptions::for_width(1.5), &[])?;
+/// assert_eq!(filled.curves.len(), 1);
+/// assert!(filled.figures.coverage > 0.985 && filled.figures.overdeposit < 0.03);
+/// # Ok::<(), argil_fill::FillError>(())
+/// ```
+pub fn fill(
+    region: &MultiPolygon<f64>,
+    beside: &[Ring],
+    options: &FillOptions,
+    avoid: &[DVec2],
+) -> Result<Fill, FillError> {
+    options.check()?;
+    check_coordinates(region, options)?;
+    let w = options.width;
+    let own = rings_of(&with_rings_that_are_some(region), options)?;
+    let mut all = beside.to_vec();
+    all.extend(own.rings);
+    let merged = merge(&all, options, avoid)?;
+    let mut curves = merged.curves;
+    let reachable = if own.core.0.is_empty() { 0.0 } else { dilation(&own.core, 0.5 * w, w).unsigned_area() };
+    let limit = options.bare * w;
+    let mut found = scan(&own.core, reachable, &strand(&curves, w), w, limit);
+    let mut detours = 0;
+    for _ in 0..options.mending {
+        let before = curves.clone();
+        let made =
+            if found.discs.is_empty() { 0 } else { mended(&mut curves, &found.discs, w, options.grid) };
+        if made == 0 {
+            break;
+        }
+        if curves.iter().any(|curve| !self_crossings(&curve.points).is_empty()) {
+            curves = before;
+            break;
+        }
+        detours += made;
+        found = scan(&own.core, reachable, &strand(&curves, w), w, limit);
+    }
+    let length: f64 = curves.iter().map(FillCurve::length).sum();
+    // Rings that were given lie beside the region, and their clay with them.
+    let laid = (length - beside.iter().map(|ring| crate::ring::perimeter(&ring.points)).sum::<f64>()) * w;
+    let figures = Figures {
+        rings: all.len(),
+        detours,
+        length,
+        reachable,
+        coverage: if reachable > 0.0 { 1.0 - found.bare / reachable } else { 1.0 },
+        overdeposit: if laid > 0.0 { 1.0 - (reachable - found.bare) / laid } else { 0.0 },
+    };
+    Ok(Fill { curves, joints: merged.joints, bare: found.discs, figures })
+}
+
+/// The region without rings of fewer than three corners, which the polygon kernel does not expect.
+fn with_rings_that_are_some(region: &MultiPolygon<f64>) -> MultiPolygon<f64> {
+    let is_some = |ring: &&LineString<f64>| ring.0.len() > 3;
+    let polygons = region.iter().filter(|polygon| is_some(&polygon.exterior()));
+    MultiPolygon(
+        polygons
+            .map(|p| {
+                Polygon::new(p.exterior().clone(), p.interiors().iter().filter(is_some).cloned().collect())
+            })
+            .collect(),
+    )
+}
+
+fn strand(curves: &[FillCurve], width: f64) -> SegmentIndex {
+    let sides = curves.iter().flat_map(|curve| {
+        let points = &curve.points;
+        (0..points.len()).map(|k| Segment::new(points[k], points[(k + 1) % points.len()]))
+    });
+    SegmentIndex::new(sides.collect(), width)
+}
+
+fn check_coordinates(region: &MultiPolygon<f64>, options: &FillOptions) -> Result<(), FillError> {
+    let limit = (FARTHEST * options.width).min(FARTHEST_STEPS * options.grid);
+    let mut coordinates = region.iter().flat_map(rings).flat_map(|ring| &ring.0).flat_map(|c| [c.x, c.y]);
+    match coordinates.find(|value| !value.is_finite() || value.abs() > limit) {
+        Some(value) => Err(FillError::Coordinate { value, limit }),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,39 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # How it is built
+//! The method is the ring merge; full connected Fermat spirals reach continuity by a tree of joints, too (Zhao et al. 2016,
+//! <https://doi.org/10.1145/2897824.2925958>).
+//!
+//! 1. *Rings*: the boundary of the region inset by (k + ½) w, level by level.
+//! 2. *Residue*: what the beads of a level leave bare gets a loop there and back, if it is wide enough.
+//! 3. *Joints*: for neighbouring rings two legs, scored by how straight and parallel they lie; Kruskal's tree of them.
+//! 4. *Trace*: arcs and legs by turns are one closed curve for each tree.
+//! 5. *Mending*: the nearest strand that is no wall makes a detour into each disc that is still bare.
+//!
+//! Lengths are millimetres. The same input gives the same bytes.
+#![forbid(unsafe_code)]
+
+mod bare;
+mod curve;
+mod detour;
+mod error;
+mod fill;
+mod inscribed;
+mod joint;
+mod merge;
+mod offset;
+mod options;
+mod residue;
+mod ring;
+mod rings;
+mod trace;
+
+pub use argil_curve::DVec2;
+pub use bare::BareDisc;
+pub use curve::{Bead, FillCurve};
+pub use error::FillError;
+pub use fill::{Figures, Fill, fill};
+pub use joint::Joint;
+pub use merge::{Merged, merge};
+pub use options::FillOptions;
+pub use ring::Ring;

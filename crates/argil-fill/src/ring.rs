@@ -1,0 +1,120 @@
+//! Rings: closed paths one bead apart, before they are joined.
+
+use argil_curve::{ClosedCurve, DVec2, SegmentIndex};
+use geo::Simplify;
+use geo_types::{LineString, Polygon};
+
+use crate::FillError;
+use crate::offset::{ring_points, rings};
+
+/// A closed path of beads: a wall, or a ring of a fill.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ring {
+    /// Its vertices in mm, without repeating the first at the end.
+    pub points: Vec<DVec2>,
+    /// Which wall it is, counted from the outline; `None` for a ring of the fill.
+    pub wall: Option<usize>,
+}
+
+/// What rings may be simplified by, in w. They are opened by more, so that they stay simple.
+const TOLERANCE: f64 = 0.006;
+
+/// A side shorter than this many grid steps has no direction left after rounding.
+const LEAST_SIDE: f64 = 12.0;
+
+/// The rings round a polygon, simplified and on the grid; those shorter than `least` mm are left out.
+pub(crate) fn rings_round(polygon: &Polygon<f64>, width: f64, grid: f64, least: f64) -> Vec<Vec<DVec2>> {
+    rings(polygon)
+        .map(|ring| ring_points(&ring.simplify(TOLERANCE * width)))
+        .map(|points| rounded(&points, grid))
+        .filter(|points| points.len() >= 3 && perimeter(points) >= least)
+        .collect()
+}
+
+/// The points on the grid, without sides that are too short.
+pub(crate) fn rounded(points: &[DVec2], grid: f64) -> Vec<DVec2> {
+    let least = LEAST_SIDE * grid;
+    let steps = 1.0 / grid;
+    let mut kept: Vec<DVec2> = Vec::with_capacity(points.len());
+    for &point in points {
+        let point = (point * steps).round() / steps;
+        if kept.last().is_none_or(|last| last.distance(point) >= least) {
+            kept.push(point);
+        }
+    }
+    while kept.len() > 1 && kept[kept.len() - 1].distance(kept[0]) < least {
+        kept.pop();
+    }
+    kept
+}
+
+/// Length of the closed path.
+pub(crate) fn perimeter(points: &[DVec2]) -> f64 {
+    let closing = points.first().zip(points.last()).map_or(0.0, |(first, last)| first.distance(*last));
+    points.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>() + closing
+}
+
+/// Simplifies a ring that is needed for further offsets only.
+pub(crate) fn plainer(polygon: &Polygon<f64>, tolerance: f64) -> Polygon<f64> {
+    let plain = |ring: &LineString<f64>| {
+        let simple = ring.simplify(tolerance);
+        if simple.0.len() < 4 { ring.clone() } else { simple }
+    };
+    Polygon::new(plain(polygon.exterior()), polygon.interiors().iter().map(plain).collect())
+}
+
+/// A ring with what the search for joints asks of it.
+#[derive(Debug)]
+pub(crate) struct Track {
+    pub(crate) curve: ClosedCurve,
+    pub(crate) index: SegmentIndex,
+    pub(crate) wall: Option<usize>,
+    low: DVec2,
+    high: DVec2,
+}
+
+/// A place on a track.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Place {
+    pub(crate) arc: f64,
+    pub(crate) at: DVec2,
+}
+
+impl Track {
+    pub(crate) fn new(number: usize, ring: &Ring, width: f64) -> Result<Self, FillError> {
+        let curve = ClosedCurve::new(ring.points.clone())
+            .ok()
+            .filter(|curve| curve.segment_count() > 2)
+            .ok_or(FillError::Ring { ring: number })?;
+        let index = SegmentIndex::of_curves([&curve], width);
+        let (low, high) = curve
+            .points()
+            .iter()
+            .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)));
+        Ok(Self { curve, index, wall: ring.wall, low, high })
+    }
+
+    pub(crate) fn place(&self, arc: f64) -> Place {
+        Place { arc, at: self.curve.point_at(arc) }
+    }
+
+    /// The place nearest to `p`, if it is within `reach`.
+    pub(crate) fn nearest(&self, p: DVec2, reach: f64) -> Option<Place> {
+        let near = self.index.nearest_within(p, reach)?;
+        let segment = self.curve.segment(near.index);
+        Some(Place {
+            arc: self.curve.arc_of(near.index) + segment.start.distance(near.point),
+            at: near.point,
+        })
+    }
+
+    /// Direction at an arc, as the chord over `step` to either side.
+    pub(crate) fn heading(&self, arc: f64, step: f64) -> DVec2 {
+        (self.curve.point_at(arc + step) - self.curve.point_at(arc - step)).normalize_or_zero()
+    }
+
+    /// Whether the boxes come within `reach` of each other.
+    pub(crate) fn may_reach(&self, other: &Self, reach: f64) -> bool {
+        (self.low - reach).cmple(other.high).all() && (other.low - reach).cmple(self.high).all()
+    }
+}

@@ -1,0 +1,49 @@
+//! Walls that follow what is thinner than a bead.
+
+use crate::containment::contains;
+use crate::region::{ring_points, rings, swept};
+use crate::spine::sides;
+use argil_curve::SegmentIndex;
+use geo::{Area, BooleanOps};
+use geo_types::{LineString, MultiPolygon, Polygon};
+use glam::DVec2;
+
+/// Half the distance between the two lanes of a spine, in w: far above the grid and the simplification, and so
+/// little that both print one bead.
+const HALF_LANE: f64 = 0.02;
+
+/// Holes smaller than this, in w², are gaps between a spine and its wall.
+const LEAST_HOLE: f64 = 0.01;
+
+/// The region whose boundary runs along these walls and to both sides of each spine.
+///
+/// A spine that closes round a hole gives two loops side by side. Where nothing but the spine lies between them, the
+/// inner one is left out, and the spine is printed once.
+pub(crate) fn with_spines(walls: &MultiPolygon<f64>, spines: &[Vec<DVec2>], width: f64) -> MultiPolygon<f64> {
+    let mut joined = walls.union(&swept(spines, HALF_LANE * width));
+    for polygon in &mut joined {
+        let outer = SegmentIndex::new(sides(&ring_points(polygon.exterior())).collect(), width);
+        let near = 3.0 * HALF_LANE * width;
+        let stays = |hole: &LineString<f64>| {
+            let area = Polygon::new(hole.clone(), Vec::new()).unsigned_area();
+            let is_beside = || ring_points(hole).iter().all(|&p| outer.nearest_within(p, near).is_some());
+            area >= LEAST_HOLE * width * width && !is_beside()
+        };
+        let holes = polygon.interiors().iter().filter(|hole| stays(hole)).cloned().collect();
+        *polygon = Polygon::new(polygon.exterior().clone(), holes);
+    }
+    joined
+}
+
+/// Whether the region has one of the spines in it.
+pub(crate) fn has_spine(region: &Polygon<f64>, spines: &[Vec<DVec2>]) -> bool {
+    let rings: Vec<Vec<DVec2>> = rings(region).map(ring_points).collect();
+    let holds = |p: DVec2| rings.iter().filter(|ring| contains(ring, p)).count() % 2 == 1;
+    spines.iter().any(|spine| holds(middle(spine)))
+}
+
+/// A point half way along, by vertices or by the only segment.
+pub(crate) fn middle(line: &[DVec2]) -> DVec2 {
+    let k = line.len() / 2;
+    line[k.saturating_sub(1)].midpoint(line[k])
+}
