@@ -113,9 +113,13 @@ pub fn pulled_taut(path: &SlackPath<'_>, options: &TautOptions) -> Vec<DVec2> {
                 if share * pull.length() < LEAST * options.width {
                     break;
                 }
+                let sinks = |clear_of: &dyn Fn(DVec2) -> f64| {
+                    let there = clear_of(to);
+                    there < 0.0 && there < clear_of(points[k])
+                };
                 if turns_too_sharply(&points, k, to, path.fixed)
-                    || path.clear_of.filter(|_| path.felt[k]).is_some_and(|d| d(to) < d(points[k]).min(0.0))
                     || !clearing.allows(&points, k, to, [rooted[before], rooted[k]])
+                    || path.clear_of.filter(|_| path.felt[k]).is_some_and(sinks)
                 {
                     continue;
                 }
