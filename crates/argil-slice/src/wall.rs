@@ -1,7 +1,7 @@
 use crate::SliceSettings;
 use crate::containment::nest;
 use crate::fit::{Fit, inner_point};
-use crate::further::with_slivers;
+use crate::further::laid_distance;
 use crate::layer::{Loss, WallLoop};
 use crate::mitre::mitre;
 use crate::region::{self, perimeter, polygon_through, ring_points, signed_area};
@@ -144,11 +144,17 @@ impl<'a> Source<'a> {
     fn pieces(self, cleaning: Cleaning, settings: &SliceSettings) -> Vec<Piece<'a>> {
         let width = settings.width;
         let opening = cleaning.opening * width;
-        let shrunk = region::inset(self.polygon, self.distance + opening, CHORD * width);
-        let mut opened = if shrunk.0.is_empty() { shrunk } else { region::mitred_dilation(&shrunk, opening) };
+        let chord = CHORD * width;
+        let opened_at = |distance: f64| {
+            let shrunk = region::inset(self.polygon, distance + opening, chord);
+            if shrunk.0.is_empty() { shrunk } else { region::mitred_dilation(&shrunk, opening) }
+        };
+        let mut opened = opened_at(self.distance);
         if self.wall > 0 {
-            let scale = (width, settings.grid, CHORD * width);
-            opened = with_slivers(self.polygon, self.distance, opened, scale);
+            let distance = laid_distance(self.polygon, self.distance, &opened, (width, chord));
+            if distance < self.distance {
+                opened = opened_at(distance);
+            }
         }
         opened.into_iter().filter_map(|region| self.piece(region, cleaning, settings)).collect()
     }
