@@ -17,6 +17,9 @@ const SEEDS: Range<u64> = 0..200;
 /// In how many tests, which run side by side.
 const TESTS: u64 = 4;
 
+/// Seeds whose bodies are known to fall short; `docs/RESULTS.md` says how.
+const KNOWN: [u64; 0] = [];
+
 fn seeds() -> Range<u64> {
     let Ok(told) = std::env::var("ARGIL_SEEDS") else { return SEEDS };
     let number = |text: &str| text.trim().parse().expect("ARGIL_SEEDS is a number or a range");
@@ -36,11 +39,11 @@ fn shortfall(seed: u64) -> Option<String> {
     Some(format!("{told}\n  {least:?}"))
 }
 
-/// Every `TESTS`-th seed from `first` on.
+/// Every `TESTS`-th seed from `first` on, but for those that are known to fall short when none are asked for.
 fn assert_sound(first: u64) {
-    let seeds = seeds();
+    let (seeds, known) = (seeds(), if std::env::var_os("ARGIL_SEEDS").is_none() { &KNOWN[..] } else { &[] });
     let drawn = (seeds.start + first..seeds.end).step_by(TESTS as usize);
-    let found: Vec<String> = drawn.filter_map(shortfall).collect();
+    let found: Vec<String> = drawn.filter(|seed| !known.contains(seed)).filter_map(shortfall).collect();
     assert!(found.is_empty(), "{} of the bodies fall short\n{}", found.len(), found.join("\n"));
 }
 
