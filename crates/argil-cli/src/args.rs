@@ -3,6 +3,9 @@
 use std::path::PathBuf;
 
 use clap::{Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
+
+use crate::machine_args::MachineArgs;
 
 /// Plans clay prints in one unbroken strand, and audits any g-code file.
 #[derive(Debug, Parser)]
@@ -18,48 +21,82 @@ const EXIT_STATUS: &str = "Exit status: 0 done, 2 wrong usage, 3 bad input, 4 a 
 pub(crate) enum Command {
     /// Plan a model: one strand from the first gram of clay to the last.
     #[command(after_help = PLAN_EXAMPLES)]
-    Plan(PlanArgs),
+    Plan(Box<PlanArgs>),
     /// Measure a g-code file of any slicer against its model, by geometry alone.
     #[command(after_help = EXIT_STATUS)]
-    Audit(AuditArgs),
+    Audit(Box<AuditArgs>),
     /// List the bundled models; plan one with `argil plan sample:NAME`.
     Samples,
+    /// List the printers that argil knows, or show one with the source of every value.
+    Printers {
+        /// The printer to be shown: a name of the list, or a TOML file.
+        #[arg(value_name = "NAME|FILE")]
+        name: Option<String>,
+    },
+    /// List the pastes that argil knows, or show one with the source of every value.
+    Materials {
+        /// The paste to be shown: a name of the list, or a TOML file.
+        #[arg(value_name = "NAME|FILE")]
+        name: Option<String>,
+    },
+    /// Write a script that completes commands in a shell.
+    #[command(after_help = COMPLETIONS)]
+    Completions {
+        /// The shell.
+        shell: Shell,
+    },
+    /// Write the manual page.
+    #[command(after_help = "Example: argil man > argil.1 && man ./argil.1")]
+    Man,
 }
+
+const COMPLETIONS: &str = "Examples:
+  argil completions bash > ~/.local/share/bash-completion/completions/argil
+  argil completions fish > ~/.config/fish/completions/argil.fish";
 
 const PLAN_EXAMPLES: &str = "Examples:
   argil plan vase.stl -o vase.gcode
   argil plan vase.stl -o vase.gcode --width 3 --layer-height 1 --height 120 --place center
+  argil plan vase.stl -o vase.gcode --printer eazao-zero --material stoneware
   argil plan sample:cup -o cup.gcode --preview cup.html
   argil plan sample:cup -o cup.gcode --svg layers --report cup.json
 
 Exit status: 0 done, 2 wrong usage, 3 bad input, 4 a plan with findings.";
 
 /// What a model is printed with.
-#[derive(Clone, Copy, Debug, clap::Args)]
+#[derive(Clone, Debug, clap::Args)]
 pub(crate) struct BeadArgs {
-    /// Bead width in mm.
-    #[arg(long, value_name = "MM", default_value_t = 1.5, allow_negative_numbers = true)]
-    pub(crate) width: f64,
-    /// Layer height in mm [default: a third of the width].
+    /// A printer: a name that `argil printers` lists, or a TOML file. It gives the bead, the place on the bed, speeds,
+    /// flow and machine code, unless options say otherwise.
+    #[arg(long, value_name = "NAME|FILE")]
+    pub(crate) printer: Option<String>,
+    /// A paste: a name that `argil materials` lists, or a TOML file. It gives what the paste bears.
+    #[arg(long, value_name = "NAME|FILE")]
+    pub(crate) material: Option<String>,
+    /// Bead width in mm [default: the printer's, the material's, or 1.5].
+    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
+    pub(crate) width: Option<f64>,
+    /// Layer height in mm [default: with the width, or a third of it].
     #[arg(long, value_name = "MM", allow_negative_numbers = true)]
     pub(crate) layer_height: Option<f64>,
     /// Walls side by side along every outline.
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(crate) walls: usize,
-    /// How far a bead may lie beside the one below, in bead widths.
-    #[arg(long, value_name = "RATIO", default_value_t = 0.3, allow_negative_numbers = true)]
-    pub(crate) across: f64,
-    /// The longest bridge along the strand, in bead widths.
-    #[arg(long, value_name = "RATIO", default_value_t = 1.6, allow_negative_numbers = true)]
-    pub(crate) along: f64,
+    /// How far a bead may lie beside the one below, in bead widths [default: the material's, or 0.3].
+    #[arg(long, value_name = "RATIO", allow_negative_numbers = true)]
+    pub(crate) across: Option<f64>,
+    /// The longest bridge along the strand, in bead widths [default: the material's, or 1.6].
+    #[arg(long, value_name = "RATIO", allow_negative_numbers = true)]
+    pub(crate) along: Option<f64>,
 }
 
 /// Where a model stands and how large it is.
 #[derive(Clone, Copy, Debug, clap::Args)]
 pub(crate) struct PlaceArgs {
-    /// Keep the model's X and Y, or centre it on the origin. It always stands on z = 0.
-    #[arg(long, value_enum, default_value_t = Place::Keep)]
-    pub(crate) place: Place,
+    /// Keep the model's X and Y, centre it on the origin, or centre it on the printer's bed. It always stands on z = 0
+    /// [default: bed where a printer is given whose bed is known, or keep].
+    #[arg(long, value_enum)]
+    pub(crate) place: Option<Place>,
     /// Scale the model by this factor.
     #[arg(long, value_name = "F", conflicts_with = "height", allow_negative_numbers = true)]
     pub(crate) scale: Option<f64>,
@@ -74,6 +111,8 @@ pub(crate) enum Place {
     Keep,
     /// Put the middle of the model on the origin.
     Center,
+    /// Put the middle of the model on the middle of the printer's bed.
+    Bed,
 }
 
 #[derive(Debug, clap::Args)]
@@ -81,10 +120,19 @@ pub(crate) struct PlanArgs {
     /// The model: an STL file (binary or ASCII), or sample:NAME.
     #[arg(value_name = "MODEL")]
     pub(crate) model: String,
-    /// Where the g-code goes.
+    /// Where the g-code goes; for a robot cell, the table of poses.
     #[arg(short, long, value_name = "OUT.gcode")]
     pub(crate) output: PathBuf,
-    /// Write what is known about the plan as JSON.
+    /// Take options from a TOML file: `width = 3` stands for `--width 3`. Options on the command line come first.
+    #[arg(long, value_name = "FILE.toml")]
+    pub(crate) config: Option<PathBuf>,
+    /// Write the options as such a file to standard output, and do nothing else.
+    #[arg(long)]
+    pub(crate) print_config: bool,
+    /// Say nothing but warnings and errors.
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+    /// Write what is known about the plan as JSON; `-` is standard output.
     #[arg(long, value_name = "OUT.json")]
     pub(crate) report: Option<PathBuf>,
     /// Write the finished strand as JSON: layers of points with roles.
@@ -103,6 +151,8 @@ pub(crate) struct PlanArgs {
     pub(crate) bead: BeadArgs,
     #[command(flatten)]
     pub(crate) place: PlaceArgs,
+    #[command(flatten)]
+    pub(crate) machine: MachineArgs,
     /// Follow the paper's text literally where it is definite. For comparison: such a plan is not sound.
     #[arg(long)]
     pub(crate) paper_exact: bool,
@@ -125,7 +175,7 @@ pub(crate) struct AuditArgs {
     /// Bead width that the tolerances of the audit are meant for, in mm [default: the bead's width].
     #[arg(long, value_name = "MM", allow_negative_numbers = true)]
     pub(crate) tolerance_width: Option<f64>,
-    /// Write the figures as JSON.
+    /// Write the figures as JSON; `-` is standard output, in place of the text.
     #[arg(long, value_name = "OUT.json")]
     pub(crate) json: Option<PathBuf>,
     #[command(flatten)]

@@ -9,20 +9,24 @@ use argil_audit::{AuditSettings, Report, audit};
 
 use crate::args::AuditArgs;
 use crate::failure::{FINDINGS, Failure};
+use crate::profiles::Profiles;
 use crate::{input, output};
 
 /// Measures a file and tells what it found.
 pub(crate) fn run(args: &AuditArgs) -> Result<ExitCode, Failure> {
-    let settings = input::settings(&args.bead)?;
+    let profiles = Profiles::of(&args.bead)?;
+    let settings = input::settings(&args.bead, &profiles)?;
     args.json.iter().try_for_each(|path| output::check(path))?;
-    let mesh = input::model(&args.model, args.place)?;
+    let mesh = input::model(&args.model, args.place, &profiles)?;
     let bytes = std::fs::read(&args.gcode).map_err(|source| Failure::reading(&args.gcode, source))?;
     let wanted = wanted(&settings);
     let wanted =
         AuditSettings { tolerance_width: args.tolerance_width.unwrap_or(wanted.tolerance_width), ..wanted };
     let report = audit(&read_gcode(&String::from_utf8_lossy(&bytes)), &mesh, &wanted)
         .map_err(|source| Failure::input(&args.gcode.display().to_string(), source))?;
-    println!("{report}");
+    if !args.json.as_deref().is_some_and(output::is_standard) {
+        println!("{report}");
+    }
     if let Some(path) = &args.json {
         let json = serde_json::to_vec_pretty(&report)
             .map_err(|source| Failure::Output { what: "report", source: Box::new(source) })?;

@@ -18,6 +18,14 @@ pub(crate) enum Failure {
     Input { name: String, source: Box<dyn std::error::Error> },
     /// There is no such bundled model.
     Sample { name: String },
+    /// There is no such printer or material.
+    Profile { what: &'static str, name: String, list: &'static str, near: Option<&'static str> },
+    /// A file of options has a key or a value that cannot be.
+    Config { file: String, key: String, why: String },
+    /// The machine cannot be written for like this.
+    Machine { source: argil::gcode::GcodeError },
+    /// The bed is to be centred on, but no printer is given whose bed is known.
+    NoBed,
     /// An option has a value that cannot be.
     Option { option: String, source: argil::PlanError },
     /// The model has no plan.
@@ -53,7 +61,7 @@ impl Failure {
 
     pub(crate) fn exit_code(&self) -> ExitCode {
         ExitCode::from(match self {
-            Self::Sample { .. } => USAGE,
+            Self::Sample { .. } | Self::Profile { .. } | Self::Config { .. } | Self::NoBed => USAGE,
             Self::Plan { source, .. } if !is_input(source) => FINDINGS,
             _ => BAD_INPUT,
         })
@@ -74,11 +82,56 @@ impl fmt::Display for Failure {
             Self::Sample { name } => {
                 write!(f, "there is no bundled model `{name}`; `argil samples` lists them")
             }
+            Self::Profile { what, name, list, near } => {
+                write!(f, "there is no {what} `{name}`; `{list}` lists them")?;
+                near.iter().try_for_each(|near| write!(f, ", among them `{near}`"))
+            }
+            Self::Config { file, key, why } => write!(f, "{file}: {key}: {why}"),
+            Self::Machine { source } => match source {
+                argil::gcode::GcodeError::Setting { name, value, must_be } => {
+                    write!(f, "{}: {value} must be {must_be}", machine_option(name))
+                }
+                _ => write!(f, "{source}"),
+            },
+            Self::NoBed => write!(f, "--place bed: needs a --printer whose bed is known"),
             Self::Option { option, source } => write!(f, "{option}: {source}"),
-            Self::Plan { name, source } => write!(f, "{name}: {source}"),
+            Self::Plan { name, source } => {
+                write!(f, "{name}: {source}")?;
+                advice(source).iter().try_for_each(|advice| write!(f, "\n       {advice}"))
+            }
             Self::Output { what, source } => write!(f, "the {what} cannot be written: {source}"),
             #[cfg(feature = "rayon")]
             Self::Threads { threads, source } => write!(f, "{threads} threads cannot be had: {source}"),
         }
     }
+}
+
+/// What can be done about a model that has no plan.
+fn advice(error: &argil::PlanError) -> Option<&'static str> {
+    use argil::PlanError::{Layer, Nothing, Seam, Slice};
+    match error {
+        Nothing => Some("try a smaller --width, or a larger --scale if the file is not in millimetres"),
+        Slice(argil::slice::SliceError::ThinnerThanALayer { .. }) => {
+            Some("try a smaller --layer-height, or a larger --scale if the file is not in millimetres")
+        }
+        Slice(argil::slice::SliceError::TooManyLayers { .. } | argil::slice::SliceError::TooWide { .. }) => {
+            Some("try --height, or --scale 0.001 if the file is in micrometres")
+        }
+        Layer { .. } | Seam(_) => Some(
+            "nothing was written; try another --layer-height or a smaller --width, or a paste that bears more (--across, --along)",
+        ),
+        _ => None,
+    }
+}
+
+/// The name on the command line of a setting of the g-code.
+fn machine_option(setting: &str) -> String {
+    let name = match setting {
+        "approach_feed" => "travel-feed",
+        "arc_tolerance" => "arcs",
+        "diameter" => "volumetric",
+        "rate" => "constant-rate",
+        other => other,
+    };
+    format!("--{}", name.replace('_', "-"))
 }

@@ -7,12 +7,13 @@ use argil::{Material, Settings};
 
 use crate::args::{BeadArgs, Place, PlaceArgs};
 use crate::failure::Failure;
+use crate::profiles::Profiles;
 
 /// What names a bundled model in place of a file.
 const SAMPLE: &str = "sample:";
 
 /// The placed mesh of a file or bundled model.
-pub(crate) fn model(name: &str, place: PlaceArgs) -> Result<Mesh, Failure> {
+pub(crate) fn model(name: &str, place: PlaceArgs, profiles: &Profiles) -> Result<Mesh, Failure> {
     let bytes = match name.strip_prefix(SAMPLE) {
         Some(sample) => {
             argil_models::by_name(sample).ok_or_else(|| Failure::Sample { name: sample.to_owned() })?.to_stl()
@@ -25,21 +26,33 @@ pub(crate) fn model(name: &str, place: PlaceArgs) -> Result<Mesh, Failure> {
         (_, Some(height)) => Size::Height(height),
         _ => Size::Modelled,
     };
+    let bed = profiles.printer.as_ref().and_then(|printer| printer.middle()).map(Ground::At);
     let ground = match place.place {
-        Place::Keep => Ground::Keep,
-        Place::Center => Ground::Centre,
+        Some(Place::Keep) => Ground::Keep,
+        Some(Place::Center) => Ground::Centre,
+        Some(Place::Bed) => bed.ok_or(Failure::NoBed)?,
+        None => bed.unwrap_or(Ground::Keep),
     };
     mesh.placed(&Placement { size, ground }).map_err(|source| Failure::input(name, source))
 }
 
-/// The settings of a plan.
-pub(crate) fn settings(bead: &BeadArgs) -> Result<Settings, Failure> {
-    let mut settings = Settings::for_width(bead.width);
+/// The settings of a plan: options first, then printer and material, then defaults.
+pub(crate) fn settings(bead: &BeadArgs, profiles: &Profiles) -> Result<Settings, Failure> {
+    let known = profiles.bead().filter(|_| bead.width.is_none());
+    let (width, height) = known.map_or((bead.width, None), |(width, height)| (Some(width), height));
+    let mut settings = width.map_or_else(Settings::default, Settings::for_width);
     settings.walls = bead.walls;
-    settings.material = Material { across: bead.across, along: bead.along };
-    if let Some(height) = bead.layer_height {
+    if let Some(height) = bead.layer_height.or(height) {
         settings.layer_height = height;
     }
+    let paste = profiles.material.as_ref();
+    let across = paste.and_then(|paste| paste.across(settings.width, settings.layer_height));
+    let along = paste.and_then(|paste| paste.bridge.value().copied());
+    let Material { across: usual_across, along: usual_along } = settings.material;
+    settings.material = Material {
+        across: bead.across.or(across).unwrap_or(usual_across),
+        along: bead.along.or(along).unwrap_or(usual_along),
+    };
     settings.check().map_err(Failure::option)?;
     Ok(settings)
 }

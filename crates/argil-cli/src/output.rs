@@ -1,12 +1,26 @@
 //! Files that are written whole or not at all.
 
+use std::io::Write;
 use std::path::Path;
 use std::{fs, io};
 
 use crate::failure::Failure;
 
-/// Writes a file beside its place and moves it there, so that the final name never stands for half a file.
+/// Whether a place is `-`, standard output.
+pub(crate) fn is_standard(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
+/// Writes a file beside its place and moves it there, so that the final name never stands for half a file. What goes to
+/// standard output ends with its line.
 pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    if is_standard(path) {
+        let mut out = io::stdout().lock();
+        return out
+            .write_all(bytes)
+            .and_then(|()| if bytes.ends_with(b"\n") { Ok(()) } else { out.write_all(b"\n") })
+            .map_err(|source| Failure::writing(path, source));
+    }
     let mut partial = path.as_os_str().to_owned();
     partial.push(".part");
     let partial = Path::new(&partial);
@@ -19,6 +33,9 @@ pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
 
 /// Refuses a place where nothing can be written, so that a long plan does not end there.
 pub(crate) fn check(path: &Path) -> Result<(), Failure> {
+    if is_standard(path) {
+        return Ok(());
+    }
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let refuse = |kind: io::ErrorKind| Err(Failure::writing(path, kind.into()));
     match fs::metadata(folder) {

@@ -1,10 +1,11 @@
 //! `argil plan`.
 
+use std::borrow::Cow;
 use std::panic::resume_unwind;
 use std::process::ExitCode;
 use std::thread;
 
-use argil::gcode::{GcodeSettings, write_gcode};
+use argil::gcode::{Extrusion, GcodeError, GcodeSettings, Poses, write_gcode};
 use argil::mesh::Mesh;
 use argil::{Plan, PlanError, Planner, Settings, literal};
 use argil_audit::Report;
@@ -14,27 +15,38 @@ use crate::args::PlanArgs;
 use crate::audit_command::measure;
 use crate::failure::{FINDINGS, Failure};
 use crate::preview_page::preview_page;
+use crate::profiles::Profiles;
 use crate::progress::PlanBar;
 use crate::report::{PlanReport, cleaning, is_finding, summary};
-use crate::{input, output};
+use crate::{input, machine, output};
 
 /// Longest side of the overview picture, pixels.
 const PICTURE: u32 = 1600;
 
 /// Plans a model and writes everything that was asked for.
 pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
-    let settings = input::settings(&args.bead)?;
-    let files = [&args.report, &args.strand, &args.png, &args.preview].map(Option::as_ref);
+    let profiles = Profiles::of(&args.bead)?;
+    let settings = input::settings(&args.bead, &profiles)?;
+    let mut written = machine::gcode_settings(args, &settings, &profiles)?;
+    let files =
+        [&args.report, &args.strand, &args.png, &args.preview, &args.machine.poses].map(Option::as_ref);
     files.into_iter().chain([Some(&args.output)]).flatten().try_for_each(|path| output::check(path))?;
-    let mesh = input::model(&args.model, args.place)?;
+    let mesh = input::model(&args.model, args.place, &profiles)?;
     let plan =
         plan(&mesh, &settings, args)?.map_err(|source| Failure::Plan { name: args.model.clone(), source })?;
 
-    let written = gcode_settings(args, &settings);
-    let gcode = write_gcode(&plan.strand, &written)
-        .map_err(|source| Failure::Output { what: "g-code", source: Box::new(source) })?;
-    let audit = audited_and_drawn(args, &plan, &gcode, &mesh, &settings)?;
-    output::write(&args.output, gcode.as_bytes())?;
+    machine::complete(&mut written, args, &plan)?;
+    let gcode = gcode(&plan, &written)?;
+    let audit = audited_and_drawn(args, &plan, &audited(&plan, &written, &gcode)?, &mesh, &settings)?;
+    let poses = || Poses::new(&plan.strand, &written).map(|poses| poses.to_string()).map_err(unwritten);
+    if machine::is_robot(&profiles) {
+        output::write(&args.output, poses()?.as_bytes())?;
+    } else {
+        output::write(&args.output, gcode.as_bytes())?;
+    }
+    if let Some(path) = &args.machine.poses {
+        output::write(path, poses()?.as_bytes())?;
+    }
     if let Some(path) = &args.preview {
         let page = preview_page(&args.model, &settings, &written, &plan, audit.as_ref());
         output::write(path, page.as_bytes())?;
@@ -46,25 +58,52 @@ pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
         output::write(path, &json(&PlanReport::new(&args.model, settings, &plan, audit.as_ref()))?)?;
     }
 
-    eprintln!("{}", summary(&plan));
+    machine::remarks(&profiles, args, &plan).iter().for_each(|remark| eprintln!("{remark}"));
+    Ok(verdict(args, &plan, audit.as_ref()))
+}
+
+/// Says what was planned and found; the exit status tells whether there are findings.
+fn verdict(args: &PlanArgs, plan: &Plan, audit: Option<&Report>) -> ExitCode {
+    if !args.quiet {
+        eprintln!("{}", summary(plan));
+    }
     let mut findings = plan.losses.iter().any(is_finding);
-    if let Some(report) = &audit {
+    if let Some(report) = audit {
         findings |= !report.is_sound();
-        eprintln!("{}", cleaning(report));
+        if !args.quiet {
+            eprintln!("{}", cleaning(report));
+        }
         let short = report.falls_short();
-        if short.is_empty() {
+        if short.is_empty() && !args.quiet {
             eprintln!("audit: sound");
         }
         for shortfall in short {
             eprintln!("audit: {} is {}, the limit is {}", shortfall.figure, shortfall.value, shortfall.limit);
         }
     }
-    Ok(if findings { ExitCode::from(FINDINGS) } else { ExitCode::SUCCESS })
+    if findings { ExitCode::from(FINDINGS) } else { ExitCode::SUCCESS }
+}
+
+fn gcode(plan: &Plan, written: &GcodeSettings) -> Result<String, Failure> {
+    write_gcode(&plan.strand, written).map_err(unwritten)
+}
+
+fn unwritten(source: GcodeError) -> Failure {
+    Failure::Output { what: "g-code", source: Box::new(source) }
+}
+
+/// The text that is audited: the file itself, or, where the machine is told nothing of paste, the same moves with E.
+fn audited<'t>(plan: &Plan, written: &GcodeSettings, text: &'t str) -> Result<Cow<'t, str>, Failure> {
+    if !matches!(written.extrusion, Extrusion::Constant { .. }) {
+        return Ok(Cow::Borrowed(text));
+    }
+    let with_e = GcodeSettings { extrusion: Extrusion::Units, ..written.clone() };
+    gcode(plan, &with_e).map(Cow::Owned)
 }
 
 /// The plan, or why there is none; fails by itself only if no threads can be had.
 fn plan(mesh: &Mesh, settings: &Settings, args: &PlanArgs) -> Result<Result<Plan, PlanError>, Failure> {
-    let bar = PlanBar::new();
+    let bar = PlanBar::new(args.quiet);
     let work = || {
         let mut follow = |progress| bar.follow(progress);
         if args.paper_exact {
@@ -89,21 +128,6 @@ fn with_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> Res
 #[cfg(not(feature = "rayon"))]
 fn with_threads<T>(_: usize, work: impl FnOnce() -> T) -> Result<T, Failure> {
     Ok(work())
-}
-
-fn gcode_settings(args: &PlanArgs, settings: &Settings) -> GcodeSettings {
-    let header = [
-        ("model", args.model.clone()),
-        ("width", settings.width.to_string()),
-        ("layer height", settings.layer_height.to_string()),
-        ("walls", settings.walls.to_string()),
-        ("across", settings.material.across.to_string()),
-        ("along", settings.material.along.to_string()),
-    ];
-    GcodeSettings {
-        header: header.into_iter().map(|(key, value)| (key.to_owned(), value)).collect(),
-        ..GcodeSettings::default()
-    }
 }
 
 /// The audit and the pictures; side by side where there is a thread for each.

@@ -4,7 +4,7 @@ use argil::gcode::GcodeSettings;
 use argil::slice::Loss;
 use argil::strand::Role;
 use argil::{Plan, Settings};
-use argil_audit::{FindingKind, Report};
+use argil_audit::{ContactPlace, FindingKind, Report};
 use argil_preview::{PageMark, PageStyle, page_html};
 
 use crate::report::is_finding;
@@ -18,7 +18,12 @@ pub(crate) fn preview_page(
     audit: Option<&Report>,
 ) -> String {
     let sound = audit.is_none_or(Report::is_sound);
-    let found = audit.into_iter().flat_map(|report| report.findings.iter().map(|f| finding(f, sound)));
+    // The contacts of a layer are places of the ledger, which says why they are there.
+    let in_ledger = |f: &&argil_audit::Finding| f.kind != FindingKind::Contact;
+    let found = audit.into_iter().flat_map(|report| {
+        let findings = report.findings.iter().filter(in_ledger).map(|f| finding(f, sound));
+        findings.chain(report.contacts.iter().map(contact))
+    });
     let style = PageStyle {
         title: format!("{} – argil", model.rsplit(['/', '\\']).next().unwrap_or(model)),
         facts: facts(settings, plan, audit),
@@ -52,23 +57,38 @@ fn facts(settings: &Settings, plan: &Plan, audit: Option<&Report>) -> Vec<(Strin
     facts.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
 }
 
-/// A finding of the audit. Sharp turns and contacts are no faults: they tell what to look at and what to clean. Nor is
-/// anything in a sound print, where what was found is within its limit.
+/// A place of the contact ledger: what has to be cleaned there.
+fn contact(place: &ContactPlace) -> PageMark {
+    PageMark {
+        kind: format!("contact: {}", place.cause.name()),
+        fault: false,
+        layer: usize::try_from(place.first_layer).unwrap_or(0),
+        last_layer: usize::try_from(place.last_layer).unwrap_or(0),
+        at: Some([place.at.x, place.at.y].into()),
+        measure: place.length,
+        unit: "mm".to_owned(),
+    }
+}
+
+/// A finding of the audit. What only tells what to look at, as sharp turns do, is no fault. Nor is anything in a sound
+/// print, where what was found is within its limit.
 fn finding(finding: &argil_audit::Finding, sound: bool) -> PageMark {
     use FindingKind::{
-        Contact, ManyPaths, Retraction, SelfCrossing, SharpTurn, UnreadableLine, WallCrossing,
+        BareOutline, Contact, Jump, ManyPaths, Retraction, SelfCrossing, SharpBend, SharpTurn,
+        UnreadableLine, WallCrossing,
     };
     let unit = match finding.kind {
         UnreadableLine => "line",
         ManyPaths => "paths",
-        SharpTurn => "°",
+        SharpTurn | SharpBend => "°",
         Retraction | SelfCrossing | WallCrossing => "",
         _ => "mm",
     };
     PageMark {
         kind: finding.kind.name().to_owned(),
-        fault: !sound && !matches!(finding.kind, Contact | SharpTurn),
+        fault: !sound && !matches!(finding.kind, BareOutline | Contact | Jump | SharpBend | SharpTurn),
         layer: usize::try_from(finding.layer).unwrap_or(0),
+        last_layer: usize::try_from(finding.layer).unwrap_or(0),
         at: finding.at,
         measure: finding.measure,
         unit: unit.to_owned(),
@@ -89,6 +109,7 @@ fn loss(loss: &Loss) -> PageMark {
         kind: kind.to_owned(),
         fault: is_finding(loss),
         layer: loss.layer(),
+        last_layer: loss.layer(),
         at: Some([loss.at().x, loss.at().y].into()),
         measure,
         unit: unit.to_owned(),

@@ -9,8 +9,9 @@ pub(crate) struct PlanBar {
 }
 
 impl PlanBar {
-    pub(crate) fn new() -> Self {
-        let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
+    pub(crate) fn new(quiet: bool) -> Self {
+        let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+        let bar = ProgressBar::with_draw_target(None, target);
         if let Ok(style) = ProgressStyle::with_template("{msg:>9} {wide_bar} {pos}/{len} layers, {eta} left")
         {
             bar.set_style(style);

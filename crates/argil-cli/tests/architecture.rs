@@ -120,7 +120,7 @@ fn algorithms_know_nothing_of_the_planner_and_the_audit_nothing_of_planning() {
         assert!(!known.contains("argil") && !known.contains("argil-cli"), "{name}");
     }
     let measured_with = reach("argil-audit", &manifests);
-    for planning in ["support", "safeguard", "graph", "tour", "route", "elastic", "seam"] {
+    for planning in ["support", "safeguard", "graph", "tour", "route", "elastic", "taut", "fill", "seam"] {
         assert!(!measured_with.contains(&format!("argil-{planning}")), "the audit reaches {planning}");
     }
 }

@@ -49,11 +49,23 @@ impl Segment {
 
     /// The point of the segment nearest to `p`. A segment without length answers with its start.
     pub fn nearest(&self, p: DVec2) -> NearestOnSegment {
+        let (t, point) = self.nearest_point(p);
+        NearestOnSegment { t, point, distance: point.distance(p) }
+    }
+
+    /// The share of the length and the point nearest to `p`.
+    #[inline]
+    fn nearest_point(&self, p: DVec2) -> (f64, DVec2) {
         let along = self.end - self.start;
         let squared = along.length_squared();
         let t = if squared > 0.0 { ((p - self.start).dot(along) / squared).clamp(0.0, 1.0) } else { 0.0 };
-        let point = self.point_at(t);
-        NearestOnSegment { t, point, distance: point.distance(p) }
+        (t, self.point_at(t))
+    }
+
+    /// Whether `p` lies within `distance` mm of the segment, the distance itself included. For a `p` beside the
+    /// segment that is farther, the answer takes no division.
+    pub fn is_within(&self, p: DVec2, distance: f64) -> bool {
+        !self.is_beyond(p, distance) && self.distance(p) <= distance
     }
 
     /// Whether `p` is certainly farther than `distance` from the line through the segment, and so from the
@@ -79,10 +91,13 @@ impl Segment {
             return 0.0;
         }
         // Segments that do not cross are nearest to one another at an end of one of them.
-        self.distance(other.start)
-            .min(self.distance(other.end))
-            .min(other.distance(self.start))
-            .min(other.distance(self.end))
+        // The root of the least square is the least root, to the bit.
+        let square = |segment: &Segment, p: DVec2| segment.nearest_point(p).1.distance_squared(p);
+        square(self, other.start)
+            .min(square(self, other.end))
+            .min(square(other, self.start))
+            .min(square(other, self.end))
+            .sqrt()
     }
 
     /// Whether the segments cross properly: each has its ends strictly on either side of the other.
@@ -90,7 +105,15 @@ impl Segment {
     /// Touching, sharing an end and running along one another are no crossings. The sides come from a
     /// predicate with exact arithmetic, so neighbours of a path, which share an end, never count.
     pub fn crosses(&self, other: &Segment) -> bool {
-        parted(self, other.start, other.end) && parted(other, self.start, self.end)
+        !self.lies_apart(other) && parted(self, other.start, other.end) && parted(other, self.start, self.end)
+    }
+
+    /// Whether the upright boxes round the segments have no point in common.
+    #[inline]
+    fn lies_apart(&self, other: &Segment) -> bool {
+        let (low, high) = (self.start.min(self.end), self.start.max(self.end));
+        let (others_low, others_high) = (other.start.min(other.end), other.start.max(other.end));
+        high.x < others_low.x || others_high.x < low.x || high.y < others_low.y || others_high.y < low.y
     }
 
     /// The point where the lines through both segments meet; the middle of the shorter way for parallel ones.

@@ -131,10 +131,9 @@ impl SegmentIndex {
         }
         let Some(block) = self.grid.footprint(&Segment::new(p, p), radius) else { return false };
         (block.south..=block.north).any(|row| {
-            self.items_of_run(block.west, block.east, row).iter().any(|&item| {
-                let segment = &self.segments[item as usize];
-                !segment.is_beyond(p, radius) && segment.nearest(p).distance <= radius
-            })
+            self.items_of_run(block.west, block.east, row)
+                .iter()
+                .any(|&item| self.segments[item as usize].is_within(p, radius))
         })
     }
 

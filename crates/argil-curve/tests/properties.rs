@@ -77,6 +77,8 @@ proptest! {
         let index = SegmentIndex::new(segments, cell);
         let found = index.nearest_within(p, radius);
         prop_assert_eq!(found.map(|n| n.distance), Some(least).filter(|&least| least <= radius));
+        prop_assert_eq!(index.is_within(p, radius), found.is_some());
+        prop_assert_eq!(index.is_within(p, least), !index.is_empty());
     }
 
     #[test]

@@ -187,8 +187,12 @@ impl GcodeSettings {
         }
     }
 
-    /// Refuses numbers that cannot be written or would not extrude, and comments that would be read as others.
-    pub(crate) fn check(&self) -> Result<(), GcodeError> {
+    /// Refuses numbers that cannot be written or would not extrude, and comments that would be read as others. Writers
+    /// call it themselves.
+    ///
+    /// # Errors
+    /// The first setting that will not do.
+    pub fn check(&self) -> Result<(), GcodeError> {
         let within = |name, value: f64, low: f64, high: f64, must_be| {
             let fits = value >= low && value <= high;
             if fits { Ok(()) } else { Err(GcodeError::Setting { name, value, must_be }) }

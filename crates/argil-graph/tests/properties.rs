@@ -283,6 +283,33 @@ proptest! {
     }
 
     #[test]
+    fn nearby_vertices_are_the_nearest_and_look_back(region in regions(), count in 0..6_usize) {
+        let graph = region.build(|a, b| a.distance(b))?;
+        let mut wanted = region.wanted(&graph);
+        wanted.sort_unstable();
+        wanted.dedup();
+        graph.arrange(&mut wanted);
+        let distances = graph.distances(&wanted);
+        let lists = graph.nearby(&wanted, count);
+        prop_assert_eq!(lists.len(), wanted.len());
+        for (k, list) in lists.iter().enumerate() {
+            let mut sorted: Vec<f64> =
+                (0..wanted.len()).filter(|&j| j != k).map(|j| distances.get(k, j)).collect();
+            sorted.sort_by(f64::total_cmp);
+            let nearest = count.min(sorted.len());
+            for (&other, &length) in list.iter().zip(&sorted).take(nearest) {
+                let found = distances.get(k, other as usize);
+                prop_assert!((found - length).abs() <= 1e-9 * length, "{} and not {}", found, length);
+            }
+            prop_assert!(list.len() >= nearest && list.iter().all(|&other| other as usize != k));
+            // What is beyond the nearest is there for its cell, and cells touch both ways.
+            for &other in &list[nearest..] {
+                prop_assert!(lists[other as usize].contains(&(k as u32)));
+            }
+        }
+    }
+
+    #[test]
     fn distances_and_paths_are_those_of_dijkstra(region in regions()) {
         let graph = region.build(|a, b| a.distance(b) * (1.0 + (a.x * b.x).abs().sqrt()))?;
         let wanted = region.wanted(&graph);

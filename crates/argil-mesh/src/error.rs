@@ -65,4 +65,12 @@ pub enum MeshError {
         /// The height that was asked for in millimetres.
         to: f64,
     },
+    /// A place on the bed that is not finite.
+    #[error("cannot stand at ({x}, {y})")]
+    Place {
+        /// Its x in millimetres.
+        x: f64,
+        /// Its y in millimetres.
+        y: f64,
+    },
 }

@@ -1,5 +1,5 @@
 use crate::{Bounds, MeshError};
-use nalgebra::{Point3, Similarity3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Point3, Similarity3, Translation3, UnitQuaternion};
 
 /// How large a mesh is to be and where it is to stand.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -23,13 +23,15 @@ pub enum Size {
 }
 
 /// Where a placed mesh stands in x and y.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Ground {
     /// At its own coordinates (times the scale).
     #[default]
     Keep,
     /// With the middle of its bounding box at the origin.
     Centre,
+    /// With the middle of its bounding box at this place in millimetres, which must be finite.
+    At([f64; 2]),
 }
 
 pub(crate) fn place(
@@ -38,14 +40,21 @@ pub(crate) fn place(
     placement: &Placement,
 ) -> Result<Vec<[f64; 3]>, MeshError> {
     let factor = factor(bounds.size()[2], placement.size)?;
-    let middle = match placement.ground {
-        Ground::Keep => [0.0; 2],
-        Ground::Centre => [bounds.centre()[0], bounds.centre()[1]],
+    let (middle, place) = match placement.ground {
+        Ground::Keep => ([0.0; 2], [0.0; 2]),
+        Ground::Centre => ([bounds.centre()[0], bounds.centre()[1]], [0.0; 2]),
+        Ground::At(place) => ([bounds.centre()[0], bounds.centre()[1]], place),
     };
+    if !place.iter().all(|value| value.is_finite()) {
+        return Err(MeshError::Place { x: place[0], y: place[1] });
+    }
     // Move first, then scale: the lowest point then lies at zero exactly, not up to rounding.
     let lowered = Translation3::new(-middle[0], -middle[1], -bounds.min[2]);
-    let scaled =
-        Similarity3::from_parts(Translation3::from(Vector3::zeros()), UnitQuaternion::identity(), factor);
+    let scaled = Similarity3::from_parts(
+        Translation3::new(place[0], place[1], 0.0),
+        UnitQuaternion::identity(),
+        factor,
+    );
     let mut placed: Vec<[f64; 3]> =
         vertices.iter().map(|&vertex| (scaled * (lowered * Point3::from(vertex))).coords.into()).collect();
     if let Size::Height(height) = placement.size {

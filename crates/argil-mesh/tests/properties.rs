@@ -126,6 +126,11 @@ proptest! {
         prop_assert_eq!((tall.bounds().min[2], tall.bounds().max[2]), (0.0, to));
         let [x, y, _] = tall.bounds().centre();
         prop_assert!(x.abs() < 1e-9 * to * 500.0 && y.abs() < 1e-9 * to * 500.0);
+        let bed = mesh.placed(&Placement { size: Size::Height(to), ground: Ground::At([75.0, -40.0]) }).unwrap();
+        for (there, here) in bed.vertices().iter().zip(tall.vertices()) {
+            prop_assert!((there[0] - here[0] - 75.0).abs() < 1e-9 && (there[1] - here[1] + 40.0).abs() < 1e-9);
+            prop_assert_eq!(there[2], here[2]);
+        }
         let scaled = mesh.placed(&Placement { size: Size::Scale(factor), ground: Ground::Keep }).unwrap();
         for (after, before) in scaled.vertices().iter().zip(mesh.vertices()) {
             prop_assert!((after[0] - factor * before[0]).abs() <= 1e-12 * factor * 100.0);

@@ -13,7 +13,7 @@ const CELL: f64 = 1.0;
 /// A model's name with what makes it.
 type Entry = (&'static str, fn() -> Solid);
 
-const GALLERY: [Entry; 7] = [
+const GALLERY: [Entry; 8] = [
     ("spire", spire),
     ("table", table),
     ("cup", cup),
@@ -21,6 +21,7 @@ const GALLERY: [Entry; 7] = [
     ("arch", arch),
     ("nested-rings", nested_rings),
     ("hanging-island", hanging_island),
+    ("cactus", cactus),
 ];
 
 /// The names of all models, for [`by_name`].
@@ -123,4 +124,25 @@ pub fn hanging_island() -> Solid {
     let arm = Field::rod((DVec3::new(-11.0, 0.0, 28.0), 4.2), (DVec3::new(12.0, 0.0, 30.0), 3.6));
     let stalactite = Field::rod((DVec3::new(12.0, 0.0, 30.0), 4.4), (DVec3::new(12.0, 2.0, 14.0), 2.2));
     standing(&post.blended(arm, 2.5).blended(stalactite, 2.5), 20.0, 37.0)
+}
+
+/// A trunk with tapering fins and with twigs 2 mm thick: thinner than a bead of 2.5 mm, and partly than one of 1.5 mm.
+pub fn cactus() -> Solid {
+    let trunk = Field::rod((DVec3::Z * -7.0, 5.6), (DVec3::Z * 24.0, 4.2));
+    let fins = (0..3).fold(Field::empty(), |fins, k| {
+        let block = Field::rounded_box(DVec3::new(0.0, -9.0, -6.0), DVec3::new(12.0, 9.0, 15.0), 0.8);
+        let side =
+            |sign: f64| Field::half_space(DVec3::new(12.0, 0.8 * sign, 0.0), DVec3::new(0.12, sign, 0.0));
+        fins.union(block.common(side(1.0)).common(side(-1.0)).turned(TAU * f64::from(k) / 3.0))
+    });
+    let twigs = (0..5).fold(Field::empty(), |twigs, k| {
+        let angle = TAU * (f64::from(k) + 0.25) / 5.0;
+        let joints = [
+            (polar(3.0, angle, 15.0), 1.0),
+            (polar(10.0, angle, 23.0), 1.0),
+            (polar(10.5, angle, 32.0), 1.0),
+        ];
+        twigs.union(Field::limb(&joints))
+    });
+    standing(&trunk.union(fins).union(twigs), 18.0, 36.0)
 }

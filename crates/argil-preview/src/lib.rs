@@ -12,6 +12,7 @@ mod projection;
 #[cfg(feature = "png")]
 mod raster;
 mod simplify;
+mod thumbnail;
 
 pub use colour::{Colour, Palette};
 pub use layer::{SvgStyle, layer_svg};
@@ -19,3 +20,4 @@ pub use overview::{ViewStyle, overview_svg};
 pub use page::{PageMark, PageStyle, page_html};
 #[cfg(feature = "png")]
 pub use raster::{PreviewError, png};
+pub use thumbnail::thumbnail;

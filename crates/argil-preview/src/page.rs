@@ -37,6 +37,8 @@ pub struct PageMark {
     pub fault: bool,
     /// The layer's number ([`StrandLayer::index`](argil_strand::StrandLayer::index)).
     pub layer: usize,
+    /// The number of the last layer that it reaches; that of its layer, for most.
+    pub last_layer: usize,
     /// Where, mm; `None` leads to the layer.
     pub at: Option<DVec2>,
     /// How much, in the unit given.
@@ -98,12 +100,13 @@ impl Default for PageStyle {
 ///     kind: "contact".into(),
 ///     fault: false,
 ///     layer: 0,
+///     last_layer: 0,
 ///     at: Some(DVec2::new(4.5, 4.5)),
 ///     measure: 2.5,
 ///     unit: "mm".into(),
 /// };
 /// let page = page_html(&strand, &PageStyle { marks: vec![contact], ..PageStyle::default() });
-/// assert!(page.starts_with("<!doctype html>") && page.contains("\"marks\":[[0,0,4.5,4.5,2.5]]"));
+/// assert!(page.starts_with("<!doctype html>") && page.contains("\"marks\":[[0,0,4.5,4.5,2.5,0]]"));
 /// assert!(!page.contains("http"));
 /// ```
 pub fn page_html(strand: &Strand, style: &PageStyle) -> String {
@@ -170,7 +173,8 @@ impl fmt::Display for PlanData<'_> {
                 Some(at) => write!(f, "{},{}", Num(at.x), Num(at.y))?,
                 None => f.write_str("null,null")?,
             }
-            write!(f, ",{}]", Num(mark.measure))
+            let last = outline.position(mark.last_layer).map_or(layer, |last| last.max(layer));
+            write!(f, ",{},{last}]", Num(mark.measure))
         })?;
         let points: Vec<u8> = outline.points.iter().flatten().flat_map(|value| value.to_le_bytes()).collect();
         write!(f, ",\"points\":\"{}\",\"moveRoles\":\"{}\"}}", Base64(&points), Base64(&outline.roles))

@@ -108,6 +108,7 @@ proptest! {
             kind: format!("{kind}</script>"),
             fault: true,
             layer: 3,
+            last_layer: 99,
             at: Some(DVec2::new(f64::NAN, 0.0)),
             measure: f64::INFINITY,
             unit: "\"".into(),
@@ -124,7 +125,7 @@ proptest! {
         let plan = plan_of(&page);
         prop_assert_eq!(plan["title"].as_str(), Some(title.as_str()));
         prop_assert_eq!(plan["facts"][0][0].as_str(), Some(name.as_str()));
-        prop_assert_eq!(&plan["marks"][0], &serde_json::json!([0, 0, null, null, 0]));
+        prop_assert_eq!(&plan["marks"][0], &serde_json::json!([0, 0, null, null, 0, 0]));
     }
 }
 

@@ -6,13 +6,18 @@ use argil_curve::{ClosedCurve, DVec2};
 #[derive(Clone, Debug)]
 pub(crate) struct Attachments {
     taken: Vec<Vec<f64>>,
+    /// Where walls turn off into spines. A strand that came from inside there would seem to pass through the wall.
+    roots: Vec<Vec<f64>>,
     gap: f64,
+    root_gap: f64,
     step: f64,
 }
 
 impl Attachments {
-    pub(crate) fn new(walls: usize, gap: f64, step: f64) -> Self {
-        Self { taken: vec![Vec::new(); walls], gap, step }
+    /// Nothing taken yet; attachments keep `gap` from each other and, where possible, `root_gap` from the places
+    /// where spines begin.
+    pub(crate) fn new(roots: Vec<Vec<f64>>, gap: f64, root_gap: f64, step: f64) -> Self {
+        Self { taken: vec![Vec::new(); roots.len()], roots, gap, root_gap, step }
     }
 
     /// Takes an arc of a wall.
@@ -25,8 +30,11 @@ impl Attachments {
     pub(crate) fn free_near(&self, wall: usize, curve: &ClosedCurve, wanted: f64) -> f64 {
         let length = curve.length();
         let gap = self.gap.min(0.25 * length);
-        let clear =
-            |arc: f64| self.taken[wall].iter().map(|&t| curve.arc_gap(arc, t)).fold(f64::INFINITY, f64::min);
+        let clear = |arc: f64| {
+            let room = self.taken[wall].iter().map(|&t| curve.arc_gap(arc, t)).fold(f64::INFINITY, f64::min);
+            let from_root = self.roots[wall].iter().map(|&t| curve.arc_gap(arc, t));
+            from_root.map(|room| room * gap / self.root_gap).fold(room, f64::min)
+        };
         let tries = (0.5 * length / self.step).ceil().min(200.0) as usize;
         let mut best = (clear(wanted), wanted);
         for k in 0..=tries {
@@ -119,7 +127,7 @@ mod tests {
     #[test]
     fn a_taken_place_is_kept_clear_of() {
         let curve = square();
-        let mut attachments = Attachments::new(1, 2.5, 0.5);
+        let mut attachments = Attachments::new(vec![Vec::new()], 2.5, 0.7, 0.5);
         attachments.take(0, 5.0);
         let arc = attachments.free_near(0, &curve, 5.2);
         assert!(curve.arc_gap(arc, 5.0) >= 2.5);
@@ -127,10 +135,18 @@ mod tests {
     }
 
     #[test]
+    fn the_root_of_a_spine_is_kept_clear_of() {
+        let curve = square();
+        let attachments = Attachments::new(vec![vec![5.0]], 2.5, 0.7, 0.1);
+        let gap = curve.arc_gap(attachments.free_near(0, &curve, 5.2), 5.0);
+        assert!((0.7..0.9).contains(&gap));
+    }
+
+    #[test]
     fn a_tiny_wall_still_gets_a_place() {
         let corners = [(0.0, 0.0), (0.5, 0.0), (0.5, 0.5)];
         let curve = ClosedCurve::new(corners.iter().map(|&(x, y)| DVec2::new(x, y)).collect()).unwrap();
-        let mut attachments = Attachments::new(1, 2.5, 0.5);
+        let mut attachments = Attachments::new(vec![Vec::new()], 2.5, 0.7, 0.5);
         attachments.take(0, 0.0);
         let arc = attachments.free_near(0, &curve, 0.0);
         assert!(curve.arc_gap(arc, 0.0) > 0.2);

@@ -16,6 +16,18 @@ pub(crate) struct Excursion {
     bound: bool,
 }
 
+impl Excursion {
+    /// Its first and last stop; an excursion has at least one.
+    pub(crate) fn ends(&self) -> [usize; 2] {
+        [self.stops[0], self.stops[self.stops.len() - 1]]
+    }
+
+    /// Length between its ends, mm.
+    pub(crate) fn length(&self) -> f64 {
+        self.length
+    }
+}
+
 /// The stops of a region. Stop k lies `to_wall[k][w]` from wall w, infinity where that wall is no choice;
 /// `bound[k]` tells that the stop joins another wall.
 pub(crate) struct Stops<'a> {
@@ -32,6 +44,12 @@ impl Stops<'_> {
     fn cost(&self, first: usize, last: usize, wall: usize, length: f64) -> f64 {
         let legs = self.to_wall[first][wall] + self.to_wall[last][wall];
         length + legs.max(self.distances.get(first, last)) + self.root_cost
+    }
+
+    /// What an excursion costs by itself.
+    pub(crate) fn cost_of(&self, excursion: &Excursion) -> f64 {
+        let [first, last] = excursion.ends();
+        self.cost(first, last, excursion.wall, excursion.length)
     }
 
     /// Chains stops into excursions for as long as that saves strand.
@@ -93,8 +111,7 @@ impl Stops<'_> {
 
     /// The chain of two excursions joined by the hop a–b, if both are ends and it costs less than the two.
     fn merge(&self, left: &Excursion, right: &Excursion, a: usize, b: usize) -> Option<Excursion> {
-        let ends = |e: &Excursion| (e.stops[0], e.stops[e.stops.len() - 1]);
-        let ((lf, ll), (rf, rl)) = (ends(left), ends(right));
+        let ([lf, ll], [rf, rl]) = (left.ends(), right.ends());
         if (a != lf && a != ll)
             || (b != rf && b != rl)
             || (left.bound && right.bound && left.wall != right.wall)

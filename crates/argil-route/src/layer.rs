@@ -10,7 +10,12 @@ use crate::cycle::{Cycle, Leg};
 use crate::lane::draw;
 use crate::multigraph::Multigraph;
 use crate::region_plan::{Cut, RegionPlan, RegionView};
+use crate::spine::spine_roots;
 use crate::{Region, RouteError, RouteSettings, regions};
+
+/// How far attachments keep from where a wall turns off into a spine, in w: a strand that came from inside and went on
+/// along the spine would be told from one that goes through the wall by the length of wall between.
+const ROOT_GAP: f64 = 0.5;
 
 /// A wall of the layer: a closed loop that is printed whole.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,7 +79,9 @@ impl Router {
         }
         let all = SegmentIndex::of_curves(&curves, s.width);
         let positions: Vec<DVec2> = layer.demands.iter().map(|d| clear_of(&all, d, s)).collect();
-        let mut attachments = Attachments::new(curves.len(), s.attachment_gap * s.width, s.width / 6.0);
+        let roots = spine_roots(&curves, &all, s.width);
+        let (gap, root_gap) = (s.attachment_gap * s.width, ROOT_GAP * s.width);
+        let mut attachments = Attachments::new(roots, gap, root_gap, s.width / 6.0);
         let mut plans = Vec::new();
         for region in regions(layer.walls, &curves, &positions)? {
             if region.outer.is_none() && region.demands.is_empty() && region.children.len() < 2 {

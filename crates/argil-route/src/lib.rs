@@ -36,6 +36,7 @@ mod region;
 mod region_plan;
 mod round_tour;
 mod settings;
+mod spine;
 mod spliced;
 
 pub use cycle::{Cycle, Leg};

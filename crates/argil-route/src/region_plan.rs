@@ -9,9 +9,9 @@ use rayon::prelude::*;
 use crate::attachment::{Attachments, attach};
 use crate::cycle::Leg;
 use crate::discs::Discs;
-use crate::excursion::Stops;
+use crate::excursion::{Excursion, Stops};
 use crate::joint::{Reuse, join_walls};
-use crate::round_tour::meeting_places;
+use crate::round_tour::{meeting_places, taken_along};
 use crate::{Region, RouteError, RouteSettings};
 
 /// What one region sees of its layer.
@@ -57,9 +57,14 @@ pub(crate) struct RegionPlan {
     pub(crate) tours: Vec<Tour>,
     /// Where the region's demands are met.
     pub(crate) demands: Vec<DVec2>,
-    /// Length of all tours and the price of their roots, mm.
+    /// Length of all tours and the price of their roots and rings, mm.
     cost: f64,
+    /// What the tour through all walls, if there is one, is longer for the demands on it, mm.
+    detour: f64,
 }
+
+/// A tour through all walls is not looked at again if this share of its cost or less is for the demands that it takes along.
+const DETOUR: f64 = 0.1;
 
 /// A stop of a sketched tour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,6 +79,8 @@ struct Sketch {
     /// Places on walls: (index among the region's walls, arc).
     places: Vec<(usize, f64)>,
     tours: Vec<Vec<Stop>>,
+    /// Whether the first tour goes through all walls.
+    round: bool,
 }
 
 /// Distances among the stops of one tour, row by row.
@@ -130,19 +137,29 @@ impl RegionView<'_> {
     fn cheapest(&self, demands: &[DVec2], taken: &Attachments) -> Result<RegionPlan, RouteError> {
         if self.walls.is_empty() {
             let tour = (0..demands.len()).map(Stop::Demand).collect();
-            return self.draw(&Sketch { places: Vec::new(), tours: vec![tour] }, demands);
+            return self.draw(&Sketch { tours: vec![tour], ..Sketch::default() }, demands);
         }
         let excursions = || self.draw(&self.sketch_excursions(demands, taken)?, demands);
         if self.walls.len() == 1 {
             return excursions();
         }
-        let round = || self.draw(&self.sketch_round(demands, taken), demands);
+        let round = || self.cheapest_round(demands, taken);
         #[cfg(feature = "rayon")]
         let (plan, round) = rayon::join(excursions, round);
         #[cfg(not(feature = "rayon"))]
         let (plan, round) = (excursions(), round());
         let (plan, round) = (plan?, round?);
         Ok(if round.cost < plan.cost { round } else { plan })
+    }
+
+    /// One tour through all walls, with all demands or only with those that lie on its way.
+    fn cheapest_round(&self, demands: &[DVec2], taken: &Attachments) -> Result<RegionPlan, RouteError> {
+        let all = self.draw(&self.sketch_round(demands, taken), demands)?;
+        if all.detour <= DETOUR * all.cost {
+            return Ok(all);
+        }
+        let some = self.draw(&self.sketch_lean_round(demands, taken)?, demands)?;
+        Ok(if some.cost < all.cost { some } else { all })
     }
 
     fn wall(&self, local: usize) -> &ClosedCurve {
@@ -181,41 +198,90 @@ impl RegionView<'_> {
             Stops { distances: &distances, to_wall: &reach, bound: &bound, root_cost: s.root_cost * s.width };
         let mut excursions = stops.excursions();
         excursions.sort_by_key(|e| e.stops.len());
-        let mut tours = Vec::with_capacity(excursions.len());
-        for excursion in &excursions {
-            let (wall, curve) = (excursion.wall, walls[excursion.wall]);
-            let nearest = excursion
-                .stops
-                .iter()
-                .copied()
-                .min_by(|&a, &b| reach[a][wall].total_cmp(&reach[b][wall]).then(a.cmp(&b)))
-                .unwrap_or_default();
-            let from =
-                if nearest < joints.len() { cuts[nearest].at } else { demands[nearest - joints.len()] };
-            let arc = taken.free_near(self.walls[wall], curve, curve.nearest(from).s);
-            taken.take(self.walls[wall], arc);
-            let home = Stop::Place(places.len());
-            places.push((wall, arc));
-            let stop =
-                |k: usize| if k < joints.len() { Stop::Place(k) } else { Stop::Demand(k - joints.len()) };
-            tours.push(excursion.stops.iter().map(|&k| stop(k)).chain([home]).collect());
+        let at = |k: usize| if k < joints.len() { cuts[k].at } else { demands[k - joints.len()] };
+        let stop = |k: usize| if k < joints.len() { Stop::Place(k) } else { Stop::Demand(k - joints.len()) };
+        let mut sketch = Sketch { places, ..Sketch::default() };
+        self.root(&excursions, &stops, &mut taken, &mut sketch, at, stop);
+        Ok(sketch)
+    }
+
+    /// Gives every excursion a place on its wall, the one nearest to it that is free, and adds it to the sketch. `at` tells where a stop
+    /// is and `stop` what it is.
+    fn root(
+        &self,
+        excursions: &[Excursion],
+        stops: &Stops<'_>,
+        taken: &mut Attachments,
+        sketch: &mut Sketch,
+        at: impl Fn(usize) -> DVec2,
+        stop: impl Fn(usize) -> Stop,
+    ) {
+        for excursion in excursions {
+            let (wall, curve) = (self.walls[excursion.wall], self.wall(excursion.wall));
+            let reach = |stop: usize| stops.to_wall[stop][excursion.wall];
+            let near = excursion.stops.iter().copied();
+            let near =
+                near.min_by(|&a, &b| reach(a).total_cmp(&reach(b)).then(a.cmp(&b))).unwrap_or_default();
+            let arc = taken.free_near(wall, curve, curve.nearest(at(near)).s);
+            taken.take(wall, arc);
+            let home = Stop::Place(sketch.places.len());
+            sketch.places.push((excursion.wall, arc));
+            sketch.tours.push(excursion.stops.iter().map(|&k| stop(k)).chain([home]).collect());
         }
-        Ok(Sketch { places, tours })
     }
 
     /// One tour through all walls and demands.
     fn sketch_round(&self, demands: &[DVec2], taken: &Attachments) -> Sketch {
-        let walls: Vec<&ClosedCurve> = (0..self.walls.len()).map(|w| self.wall(w)).collect();
-        let wanted = meeting_places(&walls, demands, &self.settings.tour);
-        let mut taken = taken.clone();
-        let mut places = Vec::with_capacity(walls.len());
-        for (local, &arc) in wanted.iter().enumerate() {
-            let arc = taken.free_near(self.walls[local], walls[local], arc);
-            taken.take(self.walls[local], arc);
-            places.push((local, arc));
-        }
+        let places = self.met_by_one_tour(demands, &mut taken.clone());
         let stops = (0..places.len()).map(Stop::Place).chain((0..demands.len()).map(Stop::Demand)).collect();
-        Sketch { places, tours: vec![stops] }
+        Sketch { places, tours: vec![stops], round: true }
+    }
+
+    /// Where one tour through the given points meets each wall.
+    fn met_by_one_tour(&self, points: &[DVec2], taken: &mut Attachments) -> Vec<(usize, f64)> {
+        let walls: Vec<&ClosedCurve> = (0..self.walls.len()).map(|w| self.wall(w)).collect();
+        let wanted = meeting_places(&walls, points, &self.settings.tour).into_iter().enumerate();
+        wanted
+            .map(|(local, arc)| {
+                let arc = taken.free_near(self.walls[local], walls[local], arc);
+                taken.take(self.walls[local], arc);
+                (local, arc)
+            })
+            .collect()
+    }
+
+    /// One tour through all walls, which takes along what demands it can; the others are served by excursions.
+    fn sketch_lean_round(&self, demands: &[DVec2], taken: &Attachments) -> Result<Sketch, RouteError> {
+        let s = self.settings;
+        let walls: Vec<&ClosedCurve> = (0..self.walls.len()).map(|w| self.wall(w)).collect();
+        let mut taken = taken.clone();
+        let places = self.met_by_one_tour(&[], &mut taken);
+        let (graph, cuts) = self.graph(&places, demands)?;
+        // The demands first, so that they have the numbers of their stops.
+        let among: Vec<u32> =
+            (0..demands.len()).map(|d| graph.terminal(d)).chain(cuts.iter().map(|c| c.vertex)).collect();
+        let distances = self.distances(&graph, &among)?;
+        let to_wall: Vec<Vec<f64>> =
+            demands.iter().map(|&d| walls.iter().map(|w| w.nearest(d).distance).collect()).collect();
+        let bound = vec![false; demands.len()];
+        let stops = Stops {
+            distances: &distances,
+            to_wall: &to_wall,
+            bound: &bound,
+            root_cost: s.root_cost * s.width,
+        };
+        let met: Vec<usize> = (demands.len()..among.len()).collect();
+        let order = shortest_tour(&Among::new(&distances, &met), &[], None, &s.tour).order;
+        let mut round: Vec<usize> = order.into_iter().map(|k| met[k]).collect();
+        let excursions = taken_along(&mut round, stops.excursions(), &stops, s.ring_cost);
+        let stop = |k: usize| match k.checked_sub(demands.len()) {
+            Some(place) => Stop::Place(place),
+            None => Stop::Demand(k),
+        };
+        let tours = vec![round.into_iter().map(stop).collect()];
+        let mut sketch = Sketch { places, tours, round: true };
+        self.root(&excursions, &stops, &mut taken, &mut sketch, |k| demands[k], stop);
+        Ok(sketch)
     }
 
     /// Draws a sketch: the graph with all its places, and the shortest tour through the stops of each.
@@ -242,13 +308,20 @@ impl RegionView<'_> {
         let drawn: Vec<_> = sketch.tours.par_iter().map(tour).collect();
         #[cfg(not(feature = "rayon"))]
         let drawn: Vec<_> = sketch.tours.iter().map(tour).collect();
-        let mut cost = s.root_cost * s.width * cuts.len() as f64;
+        // What a tour through all walls is longer for the demands that it takes along.
+        let mut detour = 0.0;
+        if let (true, Some((length, _))) = (sketch.round, drawn.first()) {
+            let walls: Vec<usize> = (0..self.walls.len()).collect();
+            let bare = shortest_tour(&Among::new(&distances, &walls), &[], None, &s.tour).length;
+            detour = (length - bare).max(0.0);
+        }
+        let mut cost = s.root_cost * s.width * cuts.len() as f64 + (s.ring_cost - 1.0) * detour;
         let mut tours = Vec::with_capacity(drawn.len());
         for (length, tour) in drawn {
             cost += length;
             tours.push(tour);
         }
-        Ok(RegionPlan { graph, cuts, tours, demands: demands.to_vec(), cost })
+        Ok(RegionPlan { graph, cuts, tours, demands: demands.to_vec(), cost, detour })
     }
 
     /// The region's graph with the given places on its walls as attachments.

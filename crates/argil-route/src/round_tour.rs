@@ -1,7 +1,9 @@
-//! One tour through all walls and demands of a region: where each wall is best met.
+//! One tour through all walls of a region: where each wall is best met, and what it takes along.
 
 use argil_curve::{ClosedCurve, DVec2, Segment};
 use argil_tour::{Metric, TourOptions, shortest_tour};
+
+use crate::excursion::{Excursion, Stops};
 
 /// Straight-line distances: a first guess of the order in which walls are met.
 struct Straight<'a>(&'a [DVec2]);
@@ -46,6 +48,47 @@ pub(crate) fn meeting_places(walls: &[&ClosedCurve], demands: &[DVec2], options:
         }
     }
     arcs
+}
+
+/// Moves excursions into a tour that has to be walked anyway, the one that saves most first, for as long as that saves; the rest
+/// is given back. What is put into the tour counts `ring` times its length: a tour has no tip, so that its strand dies
+/// only where a wall comes near, while an excursion gets shorter with every layer.
+///
+/// # Complexity
+/// O(E² (E + T)) for E excursions and a tour of T stops.
+pub(crate) fn taken_along(
+    tour: &mut Vec<usize>,
+    mut excursions: Vec<Excursion>,
+    stops: &Stops<'_>,
+    ring: f64,
+) -> Vec<Excursion> {
+    let distance = |a: usize, b: usize| stops.distances.get(a, b);
+    let saving = |tour: &[usize], excursion: &Excursion| {
+        let [first, last] = excursion.ends();
+        let places = (0..tour.len()).flat_map(|k| {
+            let (a, b) = (tour[k], tour[(k + 1) % tour.len()]);
+            let detour = |first, last| distance(a, first) + distance(last, b) - distance(a, b);
+            [(detour(first, last), k + 1, false), (detour(last, first), k + 1, true)]
+        });
+        let (detour, at, turned) = places.min_by(|p, q| p.0.total_cmp(&q.0))?;
+        Some((stops.cost_of(excursion) - ring * (detour + excursion.length()), at, turned))
+    };
+    loop {
+        let best = excursions
+            .iter()
+            .enumerate()
+            .filter_map(|(k, excursion)| {
+                saving(tour, excursion).map(|(saved, at, turned)| (saved, k, at, turned))
+            })
+            .filter(|best| best.0 > 0.0)
+            .max_by(|p, q| p.0.total_cmp(&q.0));
+        let Some((_, k, at, turned)) = best else { return excursions };
+        let mut chain = excursions.remove(k).stops;
+        if turned {
+            chain.reverse();
+        }
+        tour.splice(at..at, chain);
+    }
 }
 
 /// The arc of the curve's vertex or of the line's ends' projection that comes nearest to the line.

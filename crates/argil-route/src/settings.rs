@@ -20,6 +20,10 @@ pub struct RouteSettings {
     /// What a root costs, in w of strand: two legs whose first half bead lies in the wall's own bead, the
     /// scar that they leave, and the U-turn at the far end. Fewer and longer excursions with a higher value.
     pub root_cost: f64,
+    /// How many times its length the detour of a tour through all walls counts that it makes for demands: it has no tip to
+    /// die from, so that it lives on through the layers below. With 1 a cup kept rings of half its own length between its walls,
+    /// with 2 a sixth of it in excursions that soon die.
+    pub ring_cost: f64,
     /// Least distance along a wall between two attachments, in w, in particular between one inside and
     /// one outside: closer ones would drive the strand straight through the wall.
     pub attachment_gap: f64,
@@ -56,6 +60,7 @@ impl RouteSettings {
             coherence: 0.9,
             wall_penalty: 2.0,
             root_cost: 2.5,
+            ring_cost: 2.0,
             attachment_gap: 5.0 / 3.0,
             slack: 0.9 * 0.65 * 0.3 * width,
             relaxations: 1,
@@ -89,6 +94,7 @@ impl RouteSettings {
         let at_least_zero = [
             ("wall_penalty", self.wall_penalty),
             ("root_cost", self.root_cost),
+            ("ring_cost", self.ring_cost),
             ("slack", self.slack),
             ("wall_keep", self.wall_keep),
             ("reuse", self.reuse),

@@ -3,7 +3,8 @@
 //! # How it is built
 //! A sweep over the triangles cuts the mesh at the middle of each layer and links the pieces along shared mesh
 //! edges; the contours are filled by the non-zero rule; each
-//! outline is inset for its walls, opened and simplified; the loops are rounded to the output grid and
+//! outline is inset for its walls, opened and simplified; where that leaves part of it bare, the first wall follows the
+//! chordal axis there and back; the loops are rounded to the output grid and
 //! only then checked, since rounding is what breaks slivers. What cannot be printed as it is becomes a
 //! [`Loss`] with its layer and place. Polygons are `geo-types`, paths `glam::DVec2`.
 //!
@@ -18,6 +19,7 @@ mod fit;
 mod further;
 mod layer;
 mod mitre;
+mod pruning;
 mod region;
 mod section;
 mod settings;

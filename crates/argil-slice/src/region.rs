@@ -61,11 +61,6 @@ fn line_strings(lines: &[Vec<DVec2>]) -> MultiLineString<f64> {
     MultiLineString(lines.iter().map(line).collect())
 }
 
-/// What lies in either region.
-pub(crate) fn union(a: &MultiPolygon<f64>, b: &MultiPolygon<f64>) -> MultiPolygon<f64> {
-    a.boolean_op_with_fill_rule(b, OpType::Union, FillRule::NonZero)
-}
-
 fn offset(region: &impl Buffer<Scalar = f64>, distance: f64, join: LineJoin<f64>) -> MultiPolygon<f64> {
     region.buffer_with_style(BufferStyle::new(distance).line_join(join))
 }

@@ -3,14 +3,17 @@
 use crate::containment::contains;
 use crate::region::{ring_points, rings, swept};
 use crate::spine::sides;
-use argil_curve::SegmentIndex;
+use argil_curve::{Segment, SegmentIndex};
 use geo::{Area, BooleanOps};
 use geo_types::{LineString, MultiPolygon, Polygon};
 use glam::DVec2;
 
 /// Half the distance between the two lanes of a spine, in w: far above the grid and the simplification, and so
 /// little that both print one bead.
-const HALF_LANE: f64 = 0.02;
+pub(crate) const HALF_LANE: f64 = 0.02;
+
+/// Walls all of which lie within this of a spine, in w, are specks where the outline is just as wide as a bead.
+const SPECK: f64 = 0.1;
 
 /// Holes smaller than this, in w², are gaps between a spine and its wall.
 const LEAST_HOLE: f64 = 0.01;
@@ -21,6 +24,13 @@ const LEAST_HOLE: f64 = 0.01;
 /// inner one is left out, and the spine is printed once.
 pub(crate) fn with_spines(walls: &MultiPolygon<f64>, spines: &[Vec<DVec2>], width: f64) -> MultiPolygon<f64> {
     let mut joined = walls.union(&swept(spines, HALF_LANE * width));
+    let lines = spines.iter().flat_map(|spine| spine.windows(2));
+    let lines = SegmentIndex::new(lines.map(|pair| Segment::new(pair[0], pair[1])).collect(), width);
+    joined.0.retain(|polygon| {
+        let ring = ring_points(polygon.exterior());
+        let is_beside = || ring.iter().all(|&p| lines.nearest_within(p, SPECK * width).is_some());
+        has_spine(polygon, spines) || !is_beside()
+    });
     for polygon in &mut joined {
         let outer = SegmentIndex::new(sides(&ring_points(polygon.exterior())).collect(), width);
         let near = 3.0 * HALF_LANE * width;

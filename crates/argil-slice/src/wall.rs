@@ -1,14 +1,14 @@
 use crate::SliceSettings;
 use crate::containment::nest;
 use crate::fit::{Fit, inner_point};
-use crate::further::with_slivers;
+use crate::further::laid_distance;
 use crate::layer::{Loss, WallLoop};
 use crate::mitre::mitre;
 use crate::region::{self, perimeter, polygon_through, ring_points, signed_area};
 use crate::simplification::{rounded, simplified};
 use crate::soundness::unsound;
 use crate::spine::{self, is_bare_somewhere};
-use crate::thin::{has_spine, with_spines};
+use crate::thin::{HALF_LANE, has_spine, with_spines};
 use argil_curve::SegmentIndex;
 use geo::{Area, Intersects};
 use geo_types::{MultiPolygon, Polygon};
@@ -34,6 +34,9 @@ const ATTEMPTS: [Cleaning; 4] = [
     Cleaning { opening: 0.04, tolerance: 0.003 },
     Cleaning { opening: 0.08, tolerance: 0.003 },
 ];
+
+/// Notches beside a spine that are narrower than twice this, in w, are closed.
+const CLOSING: f64 = 0.03;
 
 #[derive(Clone, Copy)]
 struct Cleaning {
@@ -141,11 +144,17 @@ impl<'a> Source<'a> {
     fn pieces(self, cleaning: Cleaning, settings: &SliceSettings) -> Vec<Piece<'a>> {
         let width = settings.width;
         let opening = cleaning.opening * width;
-        let shrunk = region::inset(self.polygon, self.distance + opening, CHORD * width);
-        let mut opened = if shrunk.0.is_empty() { shrunk } else { region::mitred_dilation(&shrunk, opening) };
+        let chord = CHORD * width;
+        let opened_at = |distance: f64| {
+            let shrunk = region::inset(self.polygon, distance + opening, chord);
+            if shrunk.0.is_empty() { shrunk } else { region::mitred_dilation(&shrunk, opening) }
+        };
+        let mut opened = opened_at(self.distance);
         if self.wall > 0 {
-            let scale = (width, settings.grid, CHORD * width);
-            opened = with_slivers(self.polygon, self.distance, opened, scale);
+            let distance = laid_distance(self.polygon, self.distance, &opened, (width, chord));
+            if distance < self.distance {
+                opened = opened_at(distance);
+            }
         }
         opened.into_iter().filter_map(|region| self.piece(region, cleaning, settings)).collect()
     }
@@ -240,12 +249,19 @@ fn sound_pieces<'a>(
 }
 
 impl<'a> Piece<'a> {
-    /// The same piece opened further; it may fall apart.
+    /// The same piece opened further; it may fall apart. Notches beside a spine are closed first, since opening costs
+    /// the spine.
     fn cleaned(&self, cleaning: Cleaning, settings: &SliceSettings) -> Vec<Piece<'a>> {
-        let opening = cleaning.opening * settings.width;
-        let shrunk = region::inset(&self.region, opening, CHORD * settings.width);
-        let opened = region::mitred_dilation(&shrunk, opening);
-        opened.into_iter().filter_map(|region| self.source.piece(region, cleaning, settings)).collect()
+        let (width, chord) = (settings.width, CHORD * settings.width);
+        let opening = cleaning.opening * width;
+        let cleaned = if self.source.thin && cleaning.opening <= HALF_LANE {
+            let closing = CLOSING * width;
+            region::inset(&region::dilation(&self.region, closing, chord), closing, chord)
+        } else {
+            region::mitred_dilation(&region::inset(&self.region, opening, chord), opening)
+        };
+        let piece = |region| self.source.piece(region, cleaning, settings);
+        cleaned.into_iter().filter_map(piece).collect()
     }
 }
 

@@ -425,3 +425,24 @@ fn settings_that_are_no_lengths_are_refused() {
     ));
     assert!(slice(&mesh, &SliceSettings { layer_height: 1e-300, ..good }).is_err());
 }
+
+#[test]
+fn a_tube_three_beads_thick_has_its_second_wall_all_round() {
+    // Where two further walls meet in the middle their inset is a sliver, or would be if rounding had its way.
+    for thickness in [4.499, 4.5, 4.5002, 4.51] {
+        let body = Body::tube(&[12.0; 60], thickness, [0.0, 1.0]);
+        for layer in slice(&body.mesh(), &settings(2)).unwrap() {
+            check(&layer, &settings(2)).unwrap();
+            let second: f64 = layer
+                .walls
+                .iter()
+                .filter(|wall| wall.wall == 1)
+                .flat_map(segments)
+                .map(|(from, to)| from.distance(to))
+                .sum();
+            let wanted = 2.0 * TAU * (12.0 - 0.5 * thickness);
+            assert!((second - wanted).abs() < 0.01 * wanted, "{thickness} mm thick: {second} of {wanted} mm");
+            assert!(layer.losses.is_empty());
+        }
+    }
+}

@@ -92,7 +92,7 @@ impl Holding {
     pub(crate) fn add(&mut self, strand: Segment) {
         let Self { index, samples, holders, across, .. } = self;
         index.for_each_near(strand, *across, |k, _| {
-            if strand.distance(samples[k]) <= *across {
+            if strand.is_within(samples[k], *across) {
                 holders[k] += 1;
             }
         });
@@ -101,7 +101,7 @@ impl Holding {
     fn remove(&mut self, strand: Segment) {
         let Self { index, samples, holders, across, lost, .. } = self;
         index.for_each_near(strand, *across, |k, _| {
-            if strand.distance(samples[k]) <= *across {
+            if strand.is_within(samples[k], *across) {
                 holders[k] -= 1;
                 if holders[k] == 0 {
                     lost.push(k);

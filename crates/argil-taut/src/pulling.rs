@@ -46,7 +46,21 @@ impl std::fmt::Debug for SlackPath<'_> {
     }
 }
 
-/// The path with its free points moved so that it is shorter and holds what it held.
+/// The path with its free points moved so that it is shorter, or clear of others, and holds what it held.
+///
+/// - Fixed points keep every bit.
+/// - Stretches of `above` that hang are no longer than `used` of `along`, or not longer than before; a start that was held
+///   is held. What holds less than three samples in a row, of 64 for each `along`, counts for nothing.
+/// - No two stretches cross that did not before, and free ones come no nearer to each other and to walls than `apart` and
+///   `off`, unless they were nearer before, lie within 2 w of each other along the path, or within `root` of their root.
+/// - No free point turns by more than 100° that did not before.
+///
+/// The result depends on nothing but the arguments. Options or points that are not finite, and paths of less than four
+/// points, are given back as they are.
+///
+/// # Complexity
+/// O(sweeps · n · k) for n free points and k samples and strands within a bead of one. 100 free points take about 2 ms.
+#[must_use]
 pub fn pulled_taut(path: &SlackPath<'_>, options: &TautOptions) -> Vec<DVec2> {
     let mut points = path.points.to_vec();
     let n = points.len();
@@ -99,9 +113,13 @@ pub fn pulled_taut(path: &SlackPath<'_>, options: &TautOptions) -> Vec<DVec2> {
                 if share * pull.length() < LEAST * options.width {
                     break;
                 }
+                let sinks = |clear_of: &dyn Fn(DVec2) -> f64| {
+                    let there = clear_of(to);
+                    there < 0.0 && there < clear_of(points[k])
+                };
                 if turns_too_sharply(&points, k, to, path.fixed)
-                    || path.clear_of.filter(|_| path.felt[k]).is_some_and(|d| d(to) < d(points[k]).min(0.0))
                     || !clearing.allows(&points, k, to, [rooted[before], rooted[k]])
+                    || path.clear_of.filter(|_| path.felt[k]).is_some_and(sinks)
                 {
                     continue;
                 }

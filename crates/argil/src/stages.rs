@@ -7,7 +7,7 @@ use argil_curve::{ClosedCurve, DVec2, SegmentIndex};
 use argil_elastic::{ElasticError, ElasticSolver, Path};
 use argil_mesh::Mesh;
 use argil_route::{Cycle, LayerInput, RouteError, Router};
-use argil_seam::SeamError;
+use argil_seam::{SeamError, SeamSettings};
 use argil_slice::{Layer, SliceError};
 use argil_support::SupportPoint;
 use argil_taut::{SlackPath, pulled_taut};
@@ -167,6 +167,10 @@ impl Seam for BestChain {
         settings: &Settings,
         cost: &dyn Fn(usize, DVec2) -> f64,
     ) -> Result<Vec<f64>, SeamError> {
-        argil_seam::seam_chain_among(cycles, footholds, &settings.seaming(), cost)
+        let usual = settings.seaming();
+        // Most prints have a chain of steps half as long as they may be, and short steps show less.
+        let short = SeamSettings { reach: 0.5 * usual.reach, ..usual };
+        argil_seam::seam_chain_among(cycles, footholds, &short, cost)
+            .or_else(|_| argil_seam::seam_chain_among(cycles, footholds, &usual, cost))
     }
 }

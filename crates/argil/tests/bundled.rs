@@ -29,6 +29,7 @@ macro_rules! sound {
 // One test a model, so that they run side by side; the dear ones in a wider bead.
 sound! {
     arch_is_sound: "arch" at 1.5 mm;
+    cactus_is_sound: "cactus" at 2.5 mm;
     columns_are_sound: "columns" at 1.5 mm;
     cup_is_sound: "cup" at 1.5 mm;
     hanging_island_is_sound: "hanging-island" at 1.5 mm;

@@ -247,7 +247,7 @@ fn a_hole_that_closes() {
 
 #[test]
 fn walls_side_by_side() {
-    for (name, walls) in [("columns", 2), ("table", 3), ("spire", 2)] {
+    for (name, walls) in [("columns", 3), ("table", 3), ("spire", 2)] {
         let (mesh, settings) = (sample(name), Settings { walls, ..Settings::default() });
         let plan = Planner::default()
             .plan(&mesh, &settings)

@@ -1,9 +1,10 @@
 //! Bodies drawn by lot: whatever they are, their strand is sound.
 //!
 //! `ARGIL_SEEDS=1000` draws as many, `ARGIL_SEEDS=200..1000` those of a range. With `ARGIL_SHRINK=1` a body that fails
-//! is taken apart to the least that fails in the same way, which can be written down as a test of its own.
+//! is taken apart to the least that fails in the same way, which is then written down in `frozen`.
 
 mod body;
+mod frozen;
 mod invariants;
 mod verdict;
 
@@ -18,7 +19,7 @@ const SEEDS: Range<u64> = 0..200;
 const TESTS: u64 = 4;
 
 /// Seeds whose bodies are known to fall short; `docs/RESULTS.md` says how.
-const KNOWN: [u64; 0] = [];
+const KNOWN: [u64; 14] = [14, 23, 30, 33, 59, 92, 100, 107, 130, 141, 174, 177, 185, 186];
 
 fn seeds() -> Range<u64> {
     let Ok(told) = std::env::var("ARGIL_SEEDS") else { return SEEDS };

@@ -31,9 +31,12 @@ class Colours {
     for (const kind of plan.kinds) {
       for (const mark of kind.marks) {
         if (mark.x === null) continue;
-        const layer = plan.layers[mark.layer];
-        const reach = Math.max(layer.width, kind.unit === "mm" ? mark.measure / 2 : 0);
-        for (let k = layer.first; k <= layer.last; k++) {
+        const { width, first } = plan.layers[mark.layer];
+        const { last } = plan.layers[mark.last];
+        // A length is that of all its layers together.
+        const length = kind.unit === "mm" ? mark.measure / (mark.last - mark.layer + 1) : 0;
+        const reach = Math.max(width, length / 2);
+        for (let k = first; k <= last; k++) {
           if (this.distance(k, mark.x, mark.y) <= reach) marked[k] = Math.max(marked[k], kind.fault ? 2 : 1);
         }
       }

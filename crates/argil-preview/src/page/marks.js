@@ -70,7 +70,8 @@ class MarkList {
   }
 
   label(kind, mark) {
-    const layer = `layer ${this.plan.layers[mark.layer].index}`;
+    const index = (layer) => this.plan.layers[layer].index;
+    const layer = mark.last > mark.layer ? `layers ${index(mark.layer)}–${index(mark.last)}` : `layer ${index(mark.layer)}`;
     const place = mark.x === null ? "" : `, at ${mark.x.toFixed(1)} ${mark.y.toFixed(1)}`;
     const unit = kind.unit === "" ? "" : ` ${kind.unit}`;
     return `${layer}${place}: ${Number(mark.measure.toFixed(2))}${unit}`;

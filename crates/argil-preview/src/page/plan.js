@@ -53,8 +53,8 @@ class Plan {
       this.time[k] = this.time[k - 1] + step / this.layers[this.layerOf[k]].speed;
     }
 
-    data.marks.forEach(([kind, layer, x, y, measure], number) => {
-      this.kinds[kind].marks.push({ number, kind, layer, x, y, measure });
+    data.marks.forEach(([kind, layer, x, y, measure, last], number) => {
+      this.kinds[kind].marks.push({ number, kind, layer, last, x, y, measure });
     });
     this.box = this.frame();
   }

@@ -4,13 +4,16 @@
 // thousands. Stripes of pixels along each move (bead_tables.js) take less than a tenth of that.
 
 // Cosine of the turn from which on a disc closes the gap at the outer side; up to it, the mitre does.
-const NEEDS_DISC = Math.cos(40 * Math.PI / 180);
+const NEEDS_DISC = Math.cos(60 * Math.PI / 180);
 
 // How far moves overlap, pixels, so that no hairline shows between them.
 const HAIR = 0.5;
 
+// Pixels across for each pixel along, from which on a move is no stripe: it rises between layers.
+const TOO_STEEP = 2;
+
 // Moves in a row without such a turn are drawn as one up to this many pixels.
-const AT_ONCE_UP_TO = 2.5;
+const AT_ONCE_UP_TO = 4;
 
 class RasterView {
   constructor(canvas, plan) {
@@ -25,6 +28,7 @@ class RasterView {
     this.direction = new Uint8Array(count);
     this.disc = new Uint8Array(count);
     this.gap = new Float32Array(count);
+    this.shown = new Uint8Array(count);
     this.directions();
     this.beads();
   }
@@ -83,7 +87,7 @@ class RasterView {
   }
 
   show(shown) {
-    this.shown = shown;
+    for (let k = 1; k <= this.plan.moves; k++) this.shown[k] = shown(k) ? 1 : 0;
   }
 
   draw(camera, first, last, { density, background }) {
@@ -137,10 +141,10 @@ class RasterView {
     const { width, height } = this.image;
     const margin = tables.disc.half + tables.room / 2;
     for (let k = last; k >= first; k--) {
-      if (!shown(k)) continue;
+      if (shown[k] === 0) continue;
       const tone = tones[k], x1 = x[k], y1 = y[k];
       let from = k - 1;
-      while (from >= first && disc[from] === 0 && tones[from] === tone && shown(from)
+      while (from >= first && disc[from] === 0 && tones[from] === tone && shown[from] === 1
         && Math.abs(x[from - 1] - x1) + Math.abs(y[from - 1] - y1) < AT_ONCE_UP_TO) from--;
       const x0 = x[from], y0 = y[from];
       const outside = (x0 < -margin && x1 < -margin) || (x0 > width + margin && x1 > width + margin)
@@ -152,7 +156,7 @@ class RasterView {
         else if (kind === ALONG_Y) this.alongY(tables, from, k, base);
         else this.discs(tables, from, k, base);
         if (disc[k] || k === end) this.stamp(tables.disc, x1, y1, this.depth[k], base);
-        const begins = from < first || !shown(from) || tones[from] !== tone;
+        const begins = from < first || shown[from] === 0 || tones[from] !== tone;
         if (begins && disc[from]) this.stamp(tables.disc, x0, y0, this.depth[from], base);
       }
       k = from + 1;
@@ -195,8 +199,8 @@ class RasterView {
     const a = x[begin] <= x[k] ? begin : k, b = begin + k - a;
     const x0 = x[a], y0 = y[a], d0 = depth[a];
     const length = x[b] - x0;
-    if (!(length > 1e-3)) return;
     const rise = (y[b] - y0) / length, sink = (depth[b] - d0) / length;
+    if (!(Math.abs(rise) < TOO_STEEP)) return this.discs(tables, begin, k, base);
     const bin = this.direction[k];
     const count = tables.count[bin], low = tables.low[bin], start = bin * tables.room;
     const depths = tables.depth, shades = tables.shade, ahead = tables.ahead;
@@ -226,8 +230,8 @@ class RasterView {
     const a = y[begin] <= y[k] ? begin : k, b = begin + k - a;
     const y0 = y[a], x0 = x[a], d0 = depth[a];
     const length = y[b] - y0;
-    if (!(length > 1e-3)) return;
     const rise = (x[b] - x0) / length, sink = (depth[b] - d0) / length;
+    if (!(Math.abs(rise) < TOO_STEEP)) return this.discs(tables, begin, k, base);
     const bin = this.direction[k];
     const count = tables.count[bin], low = tables.low[bin], start = bin * tables.room;
     const depths = tables.depth, shades = tables.shade, ahead = tables.ahead;
