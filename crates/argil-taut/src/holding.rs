@@ -47,7 +47,8 @@ impl Holding {
     ) -> Self {
         let across = options.used * options.across;
         let step = options.along / SAMPLES;
-        let held = held_spans(above, walls, across);
+        let mut held = held_spans(above, walls, across);
+        held.retain(|span| span.length >= GRIP as f64 * step);
         let (mut samples, mut runs, mut run_of) = (Vec::new(), Vec::new(), Vec::new());
         for gap in gaps(above.length(), &held) {
             if gap.length <= options.used * options.along && !starts.iter().any(|&p| lies_in(above, &gap, p))

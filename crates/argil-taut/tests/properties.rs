@@ -58,8 +58,13 @@ fn walls(comb: &Comb, w: f64) -> SegmentIndex {
     SegmentIndex::new(walls.map(|k| Segment::new(comb.points[k], comb.points[(k + 1) % n])).collect(), w)
 }
 
+/// The points as a curve; combs have more than two.
+fn curve(points: &[DVec2]) -> ClosedCurve {
+    ClosedCurve::new(points.to_vec()).expect("a comb is a curve")
+}
+
 fn taut(comb: &Comb, w: f64, starts: &[DVec2]) -> Vec<DVec2> {
-    let above = ClosedCurve::new(comb.above.clone()).unwrap();
+    let above = curve(&comb.above);
     let felt = vec![false; comb.points.len()];
     let path = SlackPath {
         points: &comb.points,
@@ -74,8 +79,8 @@ fn taut(comb: &Comb, w: f64, starts: &[DVec2]) -> Vec<DVec2> {
 }
 
 fn longest_gap(above: &[DVec2], below: &[DVec2], across: f64) -> f64 {
-    let above = ClosedCurve::new(above.to_vec()).unwrap();
-    let below = ClosedCurve::new(below.to_vec()).unwrap();
+    let above = curve(above);
+    let below = curve(below);
     let index = SegmentIndex::of_curves([&below], across);
     gaps(above.length(), &held_spans(&above, &index, across)).iter().map(|g| g.length).fold(0.0, f64::max)
 }
@@ -99,8 +104,8 @@ proptest! {
     fn fixed_points_keep_every_bit_and_nothing_crosses((comb, w) in combs()) {
         let taut = taut(&comb, w, &[]);
         prop_assert_eq!(taut.len(), comb.points.len());
-        for k in 0..taut.len() {
-            prop_assert!(!comb.fixed[k] || taut[k] == comb.points[k]);
+        for ((after, before), fixed) in taut.iter().zip(&comb.points).zip(&comb.fixed) {
+            prop_assert!(!fixed || after == before);
         }
         prop_assert!(self_crossings(&taut).is_empty());
     }
@@ -114,9 +119,9 @@ proptest! {
 
     #[test]
     fn a_start_stays_held((comb, w) in combs(), at in 0.0..1.0) {
-        let above = ClosedCurve::new(comb.above.clone()).unwrap();
+        let above = curve(&comb.above);
         let start = above.point_at(at * above.length());
-        let below = |points: &[DVec2]| SegmentIndex::of_curves([&ClosedCurve::new(points.to_vec()).unwrap()], w);
+        let below = |points: &[DVec2]| SegmentIndex::of_curves([&curve(points)], w);
         let across = 0.985 * 0.3 * w;
         prop_assume!(below(&comb.points).distance(start) <= across);
         prop_assert!(below(&taut(&comb, w, &[start])).distance(start) <= 0.3 * w);

@@ -33,15 +33,13 @@ fn two_runs_give_the_same_bytes() {
 #[test]
 fn any_number_of_threads_gives_the_same_bytes() {
     let settings = Settings::for_width(2.0);
-    for name in ["table"] {
-        let mesh = sample(name);
-        let by = |threads: usize| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start");
-            gcode(&pool.install(|| planned(&mesh, &settings)))
-        };
-        let alone = by(1);
-        assert!(alone == by(2) && alone == by(7), "{name} depends on the number of threads");
-    }
+    let mesh = sample("table");
+    let by = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start");
+        gcode(&pool.install(|| planned(&mesh, &settings)))
+    };
+    let alone = by(1);
+    assert!(alone == by(2) && alone == by(7), "the plan depends on the number of threads");
 }
 
 #[test]
