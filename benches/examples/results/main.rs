@@ -47,7 +47,7 @@ struct Args {
     #[arg(long, value_delimiter = ',')]
     only: Vec<String>,
     /// Numbers of walls.
-    #[arg(long, value_delimiter = ',', default_value = "1,2")]
+    #[arg(long, value_delimiter = ',', default_value = "1,2,3")]
     walls: Vec<usize>,
     /// An independent judge: a Python program that takes g-code, mesh and `--json FILE`.
     #[arg(long)]
@@ -61,9 +61,10 @@ struct Args {
     /// Where files are kept between the plan and the judge.
     #[arg(long)]
     work: Option<PathBuf>,
-    /// Leave the ablations as they are: they plan five models a dozen times.
-    #[arg(long)]
-    no_ablations: bool,
+    /// Tables to be written: models, peers (of models), parity (with a judge), bundled (with pictures), ablations (which
+    /// plan five models a dozen times). The others stay as they are.
+    #[arg(long, value_delimiter = ',', default_value = "models,peers,parity,bundled,ablations")]
+    tables: Vec<String>,
 }
 
 /// A model and its mesh, standing on the bed.
@@ -93,26 +94,51 @@ fn bundled() -> Outcome<Vec<Model>> {
 
 fn main() -> Outcome<()> {
     let args = Args::parse();
-    let wanted = |name: &str| args.only.is_empty() || args.only.iter().any(|only| only == name);
     let mut page = Document::read(&args.page)?;
     let mut models = Vec::new();
     if let Some(folder) = &args.models {
-        for name in reference::NAMES.into_iter().filter(|name| wanted(name)) {
+        for name in reference::NAMES.into_iter().filter(|name| args.wants(name)) {
             models.extend(model(folder, name)?);
         }
     }
-    let judge = args.judge.as_ref().map(|program| Judge::new(&args.python, program, args.work.as_deref()));
-    let mut parity = Table::new(&judge::COLUMNS);
+    if args.writes("models") || args.writes("peers") || args.writes("parity") {
+        measure_models(&args, &models, &mut page)?;
+    }
+    if args.writes("ablations") {
+        let chosen = models.iter().filter(|model| ablation::MODELS.contains(&model.name.as_str()));
+        page.put("ablations", &ablation::table(&chosen.collect::<Vec<_>>())?);
+    }
+    if args.writes("bundled") {
+        measure_bundled(&args, &mut page)?;
+    }
+    page.write(&args.page)
+}
 
+impl Args {
+    fn wants(&self, name: &str) -> bool {
+        self.only.is_empty() || self.only.iter().any(|only| only == name)
+    }
+
+    fn writes(&self, table: &str) -> bool {
+        self.tables.iter().any(|chosen| chosen == table)
+    }
+}
+
+/// The models of the folder: by themselves, beside what others have, and as a judge measures the same files.
+fn measure_models(args: &Args, models: &[Model], page: &mut Document) -> Outcome<()> {
+    let judge = args.judge.as_ref().filter(|_| args.writes("parity"));
+    let judge = judge.map(|program| Judge::new(&args.python, program, args.work.as_deref()));
+    let judge = judge.as_ref().zip(args.models.as_deref());
     let mut table = Table::new(&measure::COLUMNS);
+    let mut parity = Table::new(&judge::COLUMNS);
     let mut one_wall: Vec<(String, Report)> = Vec::new();
-    for model in &models {
+    for model in models {
         for &walls in &args.walls {
             eprintln!("{} with {walls} walls", model.name);
             let measured = measured(model, walls)?;
             table.row(measured.row());
             let (Some(gcode), Some(report)) = (&measured.gcode, measured.report) else { continue };
-            if let (Some(judge), Some(folder)) = (&judge, &args.models) {
+            if let Some((judge, folder)) = judge {
                 parity.row(judge.compared(&model.name, "argil", gcode, folder, walls, &report)?);
             }
             if walls == 1 {
@@ -120,7 +146,7 @@ fn main() -> Outcome<()> {
             }
         }
     }
-    if let (Some(judge), Some(folder), Some(foreign)) = (&judge, &args.models, &args.foreign) {
+    if let Some(((judge, folder), foreign)) = judge.zip(args.foreign.as_ref()) {
         for (name, slicer, gcode) in judge::foreign_files(foreign)? {
             if let Some(model) = models.iter().find(|model| model.name == name) {
                 eprintln!("{name} by {slicer}");
@@ -129,26 +155,29 @@ fn main() -> Outcome<()> {
             }
         }
     }
-    page.put("models", &table);
-    page.put("peers", &reference::beside(&one_wall));
     page.put("parity", &parity);
-    if !args.no_ablations {
-        let chosen = models.iter().filter(|model| ablation::MODELS.contains(&model.name.as_str()));
-        page.put("ablations", &ablation::table(&chosen.collect::<Vec<_>>())?);
+    if args.writes("models") {
+        page.put("models", &table);
     }
+    if args.writes("peers") {
+        page.put("peers", &reference::beside(&one_wall));
+    }
+    Ok(())
+}
 
-    let bundled = bundled()?;
-    let mut samples = Table::new(&measure::COLUMNS);
-    for model in bundled.iter().filter(|model| wanted(&model.name)) {
+/// The bundled models, with pictures of two layers of each.
+fn measure_bundled(args: &Args, page: &mut Document) -> Outcome<()> {
+    let mut table = Table::new(&measure::COLUMNS);
+    for model in bundled()?.iter().filter(|model| args.wants(&model.name)) {
         for &walls in &args.walls {
             eprintln!("bundled {} with {walls} walls", model.name);
             let measured = measured(model, walls)?;
-            samples.row(measured.row());
+            table.row(measured.row());
             if let (1, Some(plan)) = (walls, &measured.plan) {
                 pictures::two_layers(&model.name, plan, &args.pictures)?;
             }
         }
     }
-    page.put("bundled", &samples);
-    page.write(&args.page)
+    page.put("bundled", &table);
+    Ok(())
 }
