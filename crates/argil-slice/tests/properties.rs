@@ -186,8 +186,9 @@ fn check(layer: &Layer, settings: &SliceSettings) -> Result<(), TestCaseError> {
             let rings = layer.outline.iter().flat_map(|p| std::iter::once(p.exterior()).chain(p.interiors()));
             let depth = rings.map(|ring| Euclidean.distance(&at, ring)).fold(f64::MAX, f64::min);
             if !wall.thin {
-                // The first wall has tips in its corners.
-                let slack = if wall.wall == 0 { 0.07 } else { 0.03 } * settings.width;
+                // The first wall has tips in its corners; a further one that meets itself lies 0.024 w farther out, and is
+                // opened and simplified like all others.
+                let slack = if wall.wall == 0 { 0.07 } else { 0.04 } * settings.width;
                 prop_assert!((depth - reach).abs() < slack, "wall {} at {depth}", wall.wall);
             }
         }
