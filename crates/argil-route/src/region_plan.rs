@@ -166,6 +166,12 @@ impl RegionView<'_> {
         &self.curves[self.walls[local]]
     }
 
+    /// The arc of one of the region's walls that is nearest to a wanted one and free.
+    fn free_near(&self, taken: &Attachments, local: usize, wanted: f64) -> f64 {
+        let wall = self.walls[local];
+        taken.free_near(wall, &self.curves[wall], wanted, self.region.outer == Some(wall))
+    }
+
     /// Walls joined by a tree, demands served by excursions.
     fn sketch_excursions(&self, demands: &[DVec2], taken: &Attachments) -> Result<Sketch, RouteError> {
         let s = self.settings;
@@ -177,7 +183,7 @@ impl RegionView<'_> {
         let mut taken = taken.clone();
         let mut places = Vec::with_capacity(joints.len());
         for joint in &joints {
-            let arc = taken.free_near(self.walls[joint.wall], walls[joint.wall], joint.arc);
+            let arc = self.free_near(&taken, joint.wall, joint.arc);
             taken.take(self.walls[joint.wall], arc);
             places.push((joint.wall, arc));
         }
@@ -222,7 +228,7 @@ impl RegionView<'_> {
             let near = excursion.stops.iter().copied();
             let near =
                 near.min_by(|&a, &b| reach(a).total_cmp(&reach(b)).then(a.cmp(&b))).unwrap_or_default();
-            let arc = taken.free_near(wall, curve, curve.nearest(at(near)).s);
+            let arc = self.free_near(taken, excursion.wall, curve.nearest(at(near)).s);
             taken.take(wall, arc);
             let home = Stop::Place(sketch.places.len());
             sketch.places.push((excursion.wall, arc));
@@ -243,7 +249,7 @@ impl RegionView<'_> {
         let wanted = meeting_places(&walls, points, &self.settings.tour).into_iter().enumerate();
         wanted
             .map(|(local, arc)| {
-                let arc = taken.free_near(self.walls[local], walls[local], arc);
+                let arc = self.free_near(taken, local, arc);
                 taken.take(self.walls[local], arc);
                 (local, arc)
             })
