@@ -259,7 +259,7 @@ impl RegionView<'_> {
                     Stop::Place(_) => None,
                 });
                 if let Some(near) = near.min_by(|p, q| p.distance.total_cmp(&q.distance)) {
-                    place.1 = taken.free_near(wall, curve, near.s);
+                    place.1 = self.free_near(&taken, place.0, near.s);
                 }
             }
             taken.take(wall, place.1);
@@ -419,11 +419,6 @@ impl RegionView<'_> {
             && [a, b, a.midpoint(b)].iter().all(|&p| above.is_within(p, s.across))
         {
             weight *= s.coherence;
-        }
-        // One look from the middle tells for most edges that no wall is near any of the three places; the slack is for rounding.
-        let reach = (s.width + 0.35 * a.distance(b)) * (1.0 + 1e-9);
-        if !self.index.is_within(a.midpoint(b), reach) {
-            return weight;
         }
         let crowding = |t: f64| {
             self.index.nearest_within(a.lerp(b, t), s.width).map_or(0.0, |near| 1.0 - near.distance / s.width)
