@@ -1,7 +1,7 @@
 //! Walls that follow what is thinner than a bead.
 
 use crate::containment::contains;
-use crate::region::{perimeter, polygon_through, ring_points, rings, swept};
+use crate::region::{perimeter, ring_points, rings, swept};
 use crate::spine::sides;
 use argil_curve::{Segment, SegmentIndex};
 use geo::{Area, BooleanOps};
@@ -18,18 +18,14 @@ const SPECK: f64 = 0.1;
 /// Holes smaller than this, in w², are gaps between a spine and its wall.
 const LEAST_HOLE: f64 = 0.01;
 
-/// Half the length of spine that is taken out where it shuts off solid, in w: just enough to keep the ends apart. All of what lay
-/// within reach of the spine stays within reach.
-const HALF_GAP: f64 = 0.06;
+/// Pockets of solid that a spine shuts off from its wall and that are shorter round than this, in w, are covered by the beads around
+/// them. A loop of their own could only be reached through the wall, with less than a bead along it.
+const LEAST_POCKET: f64 = 2.0;
 
-/// Holes longer round than this, in w, have room for strand to run along the wall on their inside.
-const POCKET: f64 = 3.0;
-
-/// The region whose boundary runs along these walls and to both sides of each spine. `outline` has the rings of the outline.
+/// The region whose boundary runs along these walls and to both sides of each spine.
 ///
 /// A spine that closes round a hole gives two loops side by side. Where nothing but the spine lies between them, the
-/// inner one is left out, and the spine is printed once. Where a spine happens to meet a wall twice with little but solid
-/// between, it is cut, so that no loop runs round a pocket that strand could only get to through the wall.
+/// inner one is left out, and the spine is printed once. `outline` has the rings of the outline.
 pub(crate) fn with_spines(
     walls: &MultiPolygon<f64>,
     spines: &[Vec<DVec2>],
@@ -37,11 +33,6 @@ pub(crate) fn with_spines(
     width: f64,
 ) -> MultiPolygon<f64> {
     let mut joined = walls.union(&swept(spines, HALF_LANE * width));
-    // One at a time: a spine between two pockets that is cut for both would lose the piece between.
-    for _ in 0..joined.iter().map(|polygon| polygon.interiors().len()).sum() {
-        let Some(at) = cut_at_pocket(&joined, walls, spines, outline, width) else { break };
-        joined = joined.difference(&MultiPolygon(vec![disc(at, HALF_GAP * width)]));
-    }
     let lines = spines.iter().flat_map(|spine| spine.windows(2));
     let lines = SegmentIndex::new(lines.map(|pair| Segment::new(pair[0], pair[1])).collect(), width);
     joined.0.retain(|polygon| {
@@ -54,44 +45,16 @@ pub(crate) fn with_spines(
         let near = 3.0 * HALF_LANE * width;
         let stays = |hole: &LineString<f64>| {
             let area = Polygon::new(hole.clone(), Vec::new()).unsigned_area();
-            let is_beside = || ring_points(hole).iter().all(|&p| outer.nearest_within(p, near).is_some());
-            area >= LEAST_HOLE * width * width && !is_beside()
+            let points = ring_points(hole);
+            let is_beside = || points.iter().all(|&p| outer.nearest_within(p, near).is_some());
+            let is_pocket = || !outline.iter().any(|ring| contains(&points, ring[0]));
+            let is_small = perimeter(&points) < LEAST_POCKET * width;
+            area >= LEAST_HOLE * width * width && !is_beside() && !(is_small && is_pocket())
         };
         let holes = polygon.interiors().iter().filter(|hole| stays(hole)).cloned().collect();
         *polygon = Polygon::new(polygon.exterior().clone(), holes);
     }
     joined
-}
-
-/// For the first small hole of the region round which there is a spine, but in which there is no hole of the outline, the place of that spine
-/// that is farthest from the walls.
-fn cut_at_pocket(
-    joined: &MultiPolygon<f64>,
-    walls: &MultiPolygon<f64>,
-    spines: &[Vec<DVec2>],
-    outline: &[Vec<DVec2>],
-    width: f64,
-) -> Option<DVec2> {
-    let walls = walls.iter().flat_map(rings).flat_map(|ring| sides(&ring_points(ring)).collect::<Vec<_>>());
-    let walls = SegmentIndex::new(walls.collect(), width);
-    let holes = joined.iter().flat_map(Polygon::interiors).map(ring_points);
-    let small = holes.filter(|hole| perimeter(hole) < POCKET * width);
-    let mut pockets = small.filter(|hole| !outline.iter().any(|ring| contains(hole, ring[0])));
-    let cut = |pocket: Vec<DVec2>| {
-        let sides = SegmentIndex::new(sides(&pocket).collect(), width);
-        let beside = |p: &DVec2| sides.nearest_within(*p, 2.0 * HALF_LANE * width).is_some();
-        let places = spines.iter().flatten().copied().filter(beside);
-        let rated = places.map(|p| (walls.nearest(p).map_or(f64::INFINITY, |near| near.distance), p));
-        let (distance, place) = rated.max_by(|a, b| a.0.total_cmp(&b.0))?;
-        (distance > HALF_GAP * width).then_some(place)
-    };
-    pockets.find_map(cut)
-}
-
-/// A disc with few corners.
-fn disc(centre: DVec2, radius: f64) -> Polygon<f64> {
-    let corner = |k: u32| centre + radius * DVec2::from_angle(f64::from(k) * std::f64::consts::FRAC_PI_4);
-    polygon_through(&[(0..8).map(corner).collect()])
 }
 
 /// Whether the region has one of the spines in it.

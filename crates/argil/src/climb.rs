@@ -22,11 +22,12 @@ const AT_ROOT: f64 = 4.0;
 const SHIFT: f64 = 0.02;
 const SHIFTS: i32 = 60;
 
-/// Joins the cycles by a chain of starts.
+/// Joins the cycles by a chain of starts. Where they are not `checked`, the starts stay where the seam stage wants them.
 pub(crate) fn strand(
     layers: &[PlannedLayer],
     seam: &mut impl Seam,
     settings: &Settings,
+    checked: bool,
 ) -> Result<Strand, PlanError> {
     let width = settings.width;
     let cycles: Vec<ClosedCurve> = layers.iter().map(|layer| layer.curve.clone()).collect();
@@ -49,8 +50,8 @@ pub(crate) fn strand(
     let mut below = None;
     for ((layer, sight), &start) in layers.iter().zip(&sights).zip(&starts) {
         let (begin, mut moves) = match below {
-            None => opened(layer, start, settings.grid),
-            Some((from, below)) => clear_start((layer, sight), start, from, below, settings),
+            Some((from, below)) if checked => clear_start((layer, sight), start, from, below, settings),
+            _ => opened(layer, start, settings.grid),
         };
         match first {
             None => first = Some(begin),

@@ -21,7 +21,7 @@ const SHORT: [(u64, &str); 7] = [
     (23, "missed wall: links of chains that meet at a point"),
     (59, "missed wall: links of chains that meet at a point"),
     (92, "missed wall: a second wall that shrinks to a sliver"),
-    (135, "crossings of a wall on the lowest layer"),
+    (96, "no path without a crossing: walls nested in walls, two walls of 3 mm"),
     (141, "crossings of a wall beside a part thinner than a bead"),
     (176, "a wall that is longer than wanted by 2e-6 mm, found by the invariants and not by the audit"),
 ];
