@@ -16,7 +16,7 @@ fn layer(c: &mut Criterion) {
             mixed.obstacles.iter().map(|points| Wall { points, parent: None }).collect();
         let demands: Vec<Demand> =
             mixed.terminals.iter().map(|&position| Demand { position, anchors: vec![position] }).collect();
-        let input = LayerInput { walls: &walls, demands: &demands, safeguard: &[], above: None };
+        let input = LayerInput { walls: &walls, demands: &demands, safeguard: &[], above: None, barred: &[] };
         group.throughput(Throughput::Elements(size as u64));
         group.bench_with_input(BenchmarkId::new("route", size), &input, |b, input| {
             b.iter(|| router.cycle(black_box(input)).expect("a mixed layer can be routed"));

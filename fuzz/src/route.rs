@@ -12,7 +12,7 @@ pub fn route(bytes: &[u8]) {
     let scene = Scene::drawn(&mut draw);
     let walls: Vec<Wall<'_>> =
         scene.rings.iter().map(|(points, parent)| Wall { points, parent: *parent }).collect();
-    let input = LayerInput { walls: &walls, demands: &scene.demands, safeguard: &[], above: None };
+    let input = LayerInput { walls: &walls, demands: &scene.demands, safeguard: &[], above: None, barred: &[] };
     let settings = RouteSettings::default();
     let router = Router::new(settings.clone()).expect("the settings are argil's own");
     match router.cycle(&input) {

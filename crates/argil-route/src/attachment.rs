@@ -2,12 +2,13 @@
 
 use argil_curve::{ClosedCurve, DVec2};
 
+use crate::spine::Spines;
+
 /// Attachments of one layer: for every wall the arcs that are taken, so that no two come too close.
 #[derive(Clone, Debug)]
 pub(crate) struct Attachments {
     taken: Vec<Vec<f64>>,
-    /// Where walls turn off into spines. A strand that came from inside there would seem to pass through the wall.
-    roots: Vec<Vec<f64>>,
+    spines: Vec<Spines>,
     gap: f64,
     root_gap: f64,
     step: f64,
@@ -16,8 +17,8 @@ pub(crate) struct Attachments {
 impl Attachments {
     /// Nothing taken yet; attachments keep `gap` from each other and, where possible, `root_gap` from the places
     /// where spines begin.
-    pub(crate) fn new(roots: Vec<Vec<f64>>, gap: f64, root_gap: f64, step: f64) -> Self {
-        Self { taken: vec![Vec::new(); roots.len()], roots, gap, root_gap, step }
+    pub(crate) fn new(spines: Vec<Spines>, gap: f64, root_gap: f64, step: f64) -> Self {
+        Self { taken: vec![Vec::new(); spines.len()], spines, gap, root_gap, step }
     }
 
     /// Takes an arc of a wall.
@@ -25,14 +26,24 @@ impl Attachments {
         self.taken[wall].push(arc);
     }
 
-    /// The arc nearest to `wanted` that keeps the gap to all taken ones; `wanted` itself, or a quarter
-    /// of a small wall away, where there is no such place.
-    pub(crate) fn free_near(&self, wall: usize, curve: &ClosedCurve, wanted: f64) -> f64 {
+    /// The arc nearest to `wanted` that keeps the gap to all taken ones; the one with most room, up to a quarter
+    /// of a small wall, where there is no such place. `inside` tells that the strand lies inside of the loop.
+    pub(crate) fn free_near(&self, wall: usize, curve: &ClosedCurve, wanted: f64, inside: bool) -> f64 {
         let length = curve.length();
         let gap = self.gap.min(0.25 * length);
+        let Spines { roots, lanes } = &self.spines[wall];
+        // What lies between the lanes of a spine is solid, which is where a loop round solid has its inside.
+        let in_solid = inside == (curve.signed_area() > 0.0);
+        let is_shut = |arc: f64| {
+            let after = |from: f64, to: f64| (to - from).rem_euclid(length);
+            in_solid && lanes.iter().any(|&[from, to]| after(from, arc) <= after(from, to))
+        };
         let clear = |arc: f64| {
+            if is_shut(arc) {
+                return -1.0;
+            }
             let room = self.taken[wall].iter().map(|&t| curve.arc_gap(arc, t)).fold(f64::INFINITY, f64::min);
-            let from_root = self.roots[wall].iter().map(|&t| curve.arc_gap(arc, t));
+            let from_root = roots.iter().map(|&t| curve.arc_gap(arc, t));
             from_root.map(|room| room * gap / self.root_gap).fold(room, f64::min)
         };
         let tries = (0.5 * length / self.step).ceil().min(200.0) as usize;
@@ -127,9 +138,9 @@ mod tests {
     #[test]
     fn a_taken_place_is_kept_clear_of() {
         let curve = square();
-        let mut attachments = Attachments::new(vec![Vec::new()], 2.5, 0.7, 0.5);
+        let mut attachments = Attachments::new(vec![Spines::default()], 2.5, 0.7, 0.5);
         attachments.take(0, 5.0);
-        let arc = attachments.free_near(0, &curve, 5.2);
+        let arc = attachments.free_near(0, &curve, 5.2, true);
         assert!(curve.arc_gap(arc, 5.0) >= 2.5);
         assert!(curve.arc_gap(arc, 5.2) <= 3.5);
     }
@@ -137,18 +148,28 @@ mod tests {
     #[test]
     fn the_root_of_a_spine_is_kept_clear_of() {
         let curve = square();
-        let attachments = Attachments::new(vec![vec![5.0]], 2.5, 0.7, 0.1);
-        let gap = curve.arc_gap(attachments.free_near(0, &curve, 5.2), 5.0);
+        let attachments =
+            Attachments::new(vec![Spines { roots: vec![5.0], lanes: Vec::new() }], 2.5, 0.7, 0.1);
+        let gap = curve.arc_gap(attachments.free_near(0, &curve, 5.2, true), 5.0);
         assert!((0.7..0.9).contains(&gap));
+    }
+
+    #[test]
+    fn between_the_lanes_of_a_spine_there_is_no_room() {
+        let curve = square();
+        let spine = Spines { roots: vec![4.0, 8.0], lanes: vec![[4.0, 8.0]] };
+        let attachments = Attachments::new(vec![spine], 2.5, 0.7, 0.1);
+        assert!(!(4.0..=8.0).contains(&attachments.free_near(0, &curve, 6.0, true)), "inside is shut");
+        assert!((4.0..=8.0).contains(&attachments.free_near(0, &curve, 6.0, false)), "outside is not");
     }
 
     #[test]
     fn a_tiny_wall_still_gets_a_place() {
         let corners = [(0.0, 0.0), (0.5, 0.0), (0.5, 0.5)];
         let curve = ClosedCurve::new(corners.iter().map(|&(x, y)| DVec2::new(x, y)).collect()).unwrap();
-        let mut attachments = Attachments::new(vec![Vec::new()], 2.5, 0.7, 0.5);
+        let mut attachments = Attachments::new(vec![Spines::default()], 2.5, 0.7, 0.5);
         attachments.take(0, 0.0);
-        let arc = attachments.free_near(0, &curve, 0.0);
+        let arc = attachments.free_near(0, &curve, 0.0, true);
         assert!(curve.arc_gap(arc, 0.0) > 0.2);
     }
 }

@@ -10,7 +10,7 @@ use crate::cycle::{Cycle, Leg};
 use crate::lane::draw;
 use crate::multigraph::Multigraph;
 use crate::region_plan::{Cut, RegionPlan, RegionView};
-use crate::spine::spine_roots;
+use crate::spine::spines;
 use crate::{Region, RouteError, RouteSettings, regions};
 
 /// How far attachments keep from where a wall turns off into a spine, in w: a strand that came from inside and went on
@@ -46,6 +46,8 @@ pub struct LayerInput<'a> {
     pub safeguard: &'a [Vec<DVec2>],
     /// The cycle of the layer above, for coherence.
     pub above: Option<&'a SegmentIndex>,
+    /// Places on walls to keep attachments away from, as if strand were attached there already.
+    pub barred: &'a [DVec2],
 }
 
 /// Routes layers; see the crate's documentation for the method.
@@ -79,9 +81,17 @@ impl Router {
         }
         let all = SegmentIndex::of_curves(&curves, s.width);
         let positions: Vec<DVec2> = layer.demands.iter().map(|d| clear_of(&all, d, s)).collect();
-        let roots = spine_roots(&curves, &all, s.width);
+        let spines = spines(&curves, &all, s.width);
         let (gap, root_gap) = (s.attachment_gap * s.width, ROOT_GAP * s.width);
-        let mut attachments = Attachments::new(roots, gap, root_gap, s.width / 6.0);
+        let mut attachments = Attachments::new(spines, gap, root_gap, s.width / 6.0);
+        for &place in layer.barred {
+            for (wall, curve) in curves.iter().enumerate() {
+                let nearest = curve.nearest(place);
+                if nearest.distance < s.width {
+                    attachments.take(wall, nearest.s);
+                }
+            }
+        }
         let mut plans = Vec::new();
         for region in regions(layer.walls, &curves, &positions)? {
             if region.outer.is_none() && region.demands.is_empty() && region.children.len() < 2 {
@@ -194,19 +204,34 @@ pub(crate) fn curves(walls: &[Wall<'_>]) -> Result<Vec<ClosedCurve>, RouteError>
         .collect()
 }
 
-/// A demand's place on the grid, at least a little away from every wall.
+/// A demand's place on the grid, at least a little away from every wall. Where straight away from the nearest one there is another,
+/// such as between the lanes of a spine, the places round about are tried.
 pub(crate) fn clear_of(walls: &SegmentIndex, demand: &Demand, s: &RouteSettings) -> DVec2 {
     let keep = 0.05 * s.width;
-    let mut place = demand.position;
-    if let Some(near) = walls.nearest_within(place, keep) {
-        let anchor = demand.anchors.first().copied().unwrap_or(place);
-        let away = [place - near.point, anchor - near.point, DVec2::X]
-            .into_iter()
-            .find(|v| v.length() > s.grid)
-            .unwrap_or(DVec2::X);
-        place = near.point + keep * away.normalize_or(DVec2::X);
+    let place = demand.position;
+    let on_grid = |p: DVec2| (p / s.grid).round() * s.grid;
+    let Some(near) = walls.nearest_within(place, keep) else { return on_grid(place) };
+    let anchor = demand.anchors.first().copied().unwrap_or(place);
+    let away = [place - near.point, anchor - near.point, DVec2::X]
+        .into_iter()
+        .find(|v| v.length() > s.grid)
+        .unwrap_or(DVec2::X);
+    let straight = near.point + keep * away.normalize_or(DVec2::X);
+    let around = (1..=4).flat_map(|ring| {
+        let turn = |k: u32| DVec2::from_angle(f64::from(k) * std::f64::consts::FRAC_PI_6);
+        (0..12).map(move |k| place + f64::from(ring) * keep * turn(k))
+    });
+    let mut best = (f64::NEG_INFINITY, straight);
+    for at in std::iter::once(straight).chain(around).map(on_grid) {
+        let room = walls.nearest_within(at, keep).map_or(keep, |near| near.distance);
+        if room > 0.5 * keep {
+            return at;
+        }
+        if room > best.0 {
+            best = (room, at);
+        }
     }
-    (place / s.grid).round() * s.grid
+    best.1
 }
 
 /// Places where paths may bend: one bead off every wall, along the safeguard, and round everything.

@@ -1,5 +1,7 @@
 //! The plan of one region: its attachments, its tours, and the graph that they are drawn on.
 
+use std::collections::BTreeMap;
+
 use argil_curve::{ClosedCurve, DVec2, SegmentIndex};
 use argil_graph::{DistanceMatrix, FreeSpace, Nodes, PathFinder, PathGraph};
 use argil_tour::{Metric, shortest_tour};
@@ -57,6 +59,8 @@ pub(crate) struct RegionPlan {
     pub(crate) tours: Vec<Tour>,
     /// Where the region's demands are met.
     pub(crate) demands: Vec<DVec2>,
+    /// What was drawn, its tours in their order.
+    sketch: Sketch,
     /// Length of all tours and the price of their roots and rings, mm.
     cost: f64,
     /// What the tour through all walls, if there is one, is longer for the demands on it, mm.
@@ -81,6 +85,8 @@ struct Sketch {
     tours: Vec<Vec<Stop>>,
     /// Whether the first tour goes through all walls.
     round: bool,
+    /// Whether the stops of each tour are in an order to begin the search from.
+    ordered: bool,
 }
 
 /// Distances among the stops of one tour, row by row.
@@ -121,8 +127,10 @@ impl RegionView<'_> {
             if self.region.demands.is_empty() {
                 break;
             }
+            // Which kind of plan is cheapest hardly ever changes when demands move by less than a bead: only the one that
+            // was is drawn again.
             let moved = self.relaxed(&best)?;
-            let next = self.cheapest(&moved, &taken)?;
+            let next = self.draw(self.rerooted(&best.sketch, &moved, &taken), &moved)?;
             if next.cost >= best.cost {
                 break;
             }
@@ -137,9 +145,9 @@ impl RegionView<'_> {
     fn cheapest(&self, demands: &[DVec2], taken: &Attachments) -> Result<RegionPlan, RouteError> {
         if self.walls.is_empty() {
             let tour = (0..demands.len()).map(Stop::Demand).collect();
-            return self.draw(&Sketch { tours: vec![tour], ..Sketch::default() }, demands);
+            return self.draw(Sketch { tours: vec![tour], ..Sketch::default() }, demands);
         }
-        let excursions = || self.draw(&self.sketch_excursions(demands, taken)?, demands);
+        let excursions = || self.draw(self.sketch_excursions(demands, taken)?, demands);
         if self.walls.len() == 1 {
             return excursions();
         }
@@ -154,16 +162,22 @@ impl RegionView<'_> {
 
     /// One tour through all walls, with all demands or only with those that lie on its way.
     fn cheapest_round(&self, demands: &[DVec2], taken: &Attachments) -> Result<RegionPlan, RouteError> {
-        let all = self.draw(&self.sketch_round(demands, taken), demands)?;
+        let all = self.draw(self.sketch_round(demands, taken), demands)?;
         if all.detour <= DETOUR * all.cost {
             return Ok(all);
         }
-        let some = self.draw(&self.sketch_lean_round(demands, taken)?, demands)?;
+        let some = self.draw(self.sketch_lean_round(demands, taken)?, demands)?;
         Ok(if some.cost < all.cost { some } else { all })
     }
 
     fn wall(&self, local: usize) -> &ClosedCurve {
         &self.curves[self.walls[local]]
+    }
+
+    /// The arc of one of the region's walls that is nearest to a wanted one and free.
+    fn free_near(&self, taken: &Attachments, local: usize, wanted: f64) -> f64 {
+        let wall = self.walls[local];
+        taken.free_near(wall, &self.curves[wall], wanted, self.region.outer == Some(wall))
     }
 
     /// Walls joined by a tree, demands served by excursions.
@@ -177,7 +191,7 @@ impl RegionView<'_> {
         let mut taken = taken.clone();
         let mut places = Vec::with_capacity(joints.len());
         for joint in &joints {
-            let arc = taken.free_near(self.walls[joint.wall], walls[joint.wall], joint.arc);
+            let arc = self.free_near(&taken, joint.wall, joint.arc);
             taken.take(self.walls[joint.wall], arc);
             places.push((joint.wall, arc));
         }
@@ -200,7 +214,7 @@ impl RegionView<'_> {
         excursions.sort_by_key(|e| e.stops.len());
         let at = |k: usize| if k < joints.len() { cuts[k].at } else { demands[k - joints.len()] };
         let stop = |k: usize| if k < joints.len() { Stop::Place(k) } else { Stop::Demand(k - joints.len()) };
-        let mut sketch = Sketch { places, ..Sketch::default() };
+        let mut sketch = Sketch { places, ordered: true, ..Sketch::default() };
         self.root(&excursions, &stops, &mut taken, &mut sketch, at, stop);
         Ok(sketch)
     }
@@ -222,7 +236,7 @@ impl RegionView<'_> {
             let near = excursion.stops.iter().copied();
             let near =
                 near.min_by(|&a, &b| reach(a).total_cmp(&reach(b)).then(a.cmp(&b))).unwrap_or_default();
-            let arc = taken.free_near(wall, curve, curve.nearest(at(near)).s);
+            let arc = self.free_near(taken, excursion.wall, curve.nearest(at(near)).s);
             taken.take(wall, arc);
             let home = Stop::Place(sketch.places.len());
             sketch.places.push((excursion.wall, arc));
@@ -230,11 +244,43 @@ impl RegionView<'_> {
         }
     }
 
+    /// The same sketch for demands that have moved a little: every excursion leaves its wall at the place that is now nearest.
+    fn rerooted(&self, sketch: &Sketch, demands: &[DVec2], taken: &Attachments) -> Sketch {
+        let mut moved = sketch.clone();
+        let mut taken = taken.clone();
+        // The places that come first join walls, and stay where they are.
+        let homes: BTreeMap<usize, &Vec<Stop>> =
+            sketch.tours.iter().filter_map(|tour| Self::home(tour).map(|home| (home, tour))).collect();
+        for (k, place) in moved.places.iter_mut().enumerate() {
+            let (wall, curve) = (self.walls[place.0], self.wall(place.0));
+            if let Some(tour) = homes.get(&k) {
+                let near = tour.iter().filter_map(|stop| match *stop {
+                    Stop::Demand(demand) => Some(curve.nearest(demands[demand])),
+                    Stop::Place(_) => None,
+                });
+                if let Some(near) = near.min_by(|p, q| p.distance.total_cmp(&q.distance)) {
+                    place.1 = self.free_near(&taken, place.0, near.s);
+                }
+            }
+            taken.take(wall, place.1);
+        }
+        moved
+    }
+
+    /// The place on a wall that a tour sets out from, if that is the only one that it has.
+    fn home(tour: &[Stop]) -> Option<usize> {
+        let mut places = tour.iter().filter_map(|stop| match *stop {
+            Stop::Place(place) => Some(place),
+            Stop::Demand(_) => None,
+        });
+        places.next().filter(|_| places.next().is_none())
+    }
+
     /// One tour through all walls and demands.
     fn sketch_round(&self, demands: &[DVec2], taken: &Attachments) -> Sketch {
         let places = self.met_by_one_tour(demands, &mut taken.clone());
         let stops = (0..places.len()).map(Stop::Place).chain((0..demands.len()).map(Stop::Demand)).collect();
-        Sketch { places, tours: vec![stops], round: true }
+        Sketch { places, tours: vec![stops], round: true, ordered: false }
     }
 
     /// Where one tour through the given points meets each wall.
@@ -243,7 +289,7 @@ impl RegionView<'_> {
         let wanted = meeting_places(&walls, points, &self.settings.tour).into_iter().enumerate();
         wanted
             .map(|(local, arc)| {
-                let arc = taken.free_near(self.walls[local], walls[local], arc);
+                let arc = self.free_near(taken, local, arc);
                 taken.take(self.walls[local], arc);
                 (local, arc)
             })
@@ -279,35 +325,41 @@ impl RegionView<'_> {
             None => Stop::Demand(k),
         };
         let tours = vec![round.into_iter().map(stop).collect()];
-        let mut sketch = Sketch { places, tours, round: true };
+        let mut sketch = Sketch { places, tours, round: true, ordered: true };
         self.root(&excursions, &stops, &mut taken, &mut sketch, |k| demands[k], stop);
         Ok(sketch)
     }
 
     /// Draws a sketch: the graph with all its places, and the shortest tour through the stops of each.
-    fn draw(&self, sketch: &Sketch, demands: &[DVec2]) -> Result<RegionPlan, RouteError> {
+    fn draw(&self, mut sketch: Sketch, demands: &[DVec2]) -> Result<RegionPlan, RouteError> {
         let s = self.settings;
         let (graph, cuts) = self.graph(&sketch.places, demands)?;
         let among: Vec<u32> =
             cuts.iter().map(|c| c.vertex).chain((0..demands.len()).map(|d| graph.terminal(d))).collect();
         let distances = self.distances(&graph, &among)?;
-        let tour = |stops: &Vec<Stop>| {
+        let tour = |stops: &mut Vec<Stop>| {
             let serves = stops.iter().any(|stop| matches!(stop, Stop::Demand(_)));
-            let stops: Vec<usize> = stops
+            let nodes: Vec<usize> = stops
                 .iter()
                 .map(|&stop| match stop {
                     Stop::Place(place) => place,
                     Stop::Demand(demand) => cuts.len() + demand,
                 })
                 .collect();
-            let tour = shortest_tour(&Among::new(&distances, &stops), &[], None, &s.tour);
-            let stops = tour.order.iter().map(|&k| among[stops[k]]).collect();
+            let start: Vec<usize> = (0..nodes.len()).collect();
+            let start = sketch.ordered.then_some(start.as_slice());
+            let tour = shortest_tour(&Among::new(&distances, &nodes), &[], start, &s.tour);
+            *stops = tour.order.iter().map(|&k| stops[k]).collect();
+            let stops = tour.order.iter().map(|&k| among[nodes[k]]).collect();
             (tour.length, Tour { stops, leg: if serves { Leg::Support } else { Leg::Joint } })
         };
+        let mut tours = std::mem::take(&mut sketch.tours);
         #[cfg(feature = "rayon")]
-        let drawn: Vec<_> = sketch.tours.par_iter().map(tour).collect();
+        let drawn: Vec<_> = tours.par_iter_mut().map(tour).collect();
         #[cfg(not(feature = "rayon"))]
-        let drawn: Vec<_> = sketch.tours.iter().map(tour).collect();
+        let drawn: Vec<_> = tours.iter_mut().map(tour).collect();
+        sketch.tours = tours;
+        sketch.ordered = true;
         // What a tour through all walls is longer for the demands that it takes along.
         let mut detour = 0.0;
         if let (true, Some((length, _))) = (sketch.round, drawn.first()) {
@@ -321,7 +373,7 @@ impl RegionView<'_> {
             cost += length;
             tours.push(tour);
         }
-        Ok(RegionPlan { graph, cuts, tours, demands: demands.to_vec(), cost, detour })
+        Ok(RegionPlan { graph, cuts, tours, demands: demands.to_vec(), sketch, cost, detour })
     }
 
     /// The region's graph with the given places on its walls as attachments.

@@ -115,6 +115,7 @@ impl SplicedRouter {
     ///     demands: &[demand],
     ///     safeguard: &[],
     ///     above: None,
+    ///     barred: &[],
     /// };
     /// let cycle = SplicedRouter::new(RouteSettings::default())?.cycle(&layer)?;
     /// // Out to the demand and straight back from the one connection point.

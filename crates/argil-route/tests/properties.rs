@@ -65,7 +65,8 @@ fn scene() -> impl Strategy<Value = Scene> {
 fn routed(scene: &Scene) -> Result<Cycle, argil_route::RouteError> {
     let walls: Vec<Wall<'_>> =
         scene.rings.iter().map(|(points, parent)| Wall { points, parent: *parent }).collect();
-    let input = LayerInput { walls: &walls, demands: &scene.demands, safeguard: &[], above: None };
+    let input =
+        LayerInput { walls: &walls, demands: &scene.demands, safeguard: &[], above: None, barred: &[] };
     Router::new(RouteSettings::default())?.cycle(&input)
 }
 

@@ -21,7 +21,13 @@ impl Scene {
             self.rings.iter().map(|(points, parent)| Wall { points, parent: *parent }).collect();
         let demands: Vec<Demand> =
             self.places.iter().map(|&p| Demand { position: p, anchors: vec![p] }).collect();
-        route(&LayerInput { walls: &walls, demands: &demands, safeguard: &self.safeguard, above: None })
+        route(&LayerInput {
+            walls: &walls,
+            demands: &demands,
+            safeguard: &self.safeguard,
+            above: None,
+            barred: &[],
+        })
     }
 
     fn spliced(&self) -> Result<Cycle, RouteError> {

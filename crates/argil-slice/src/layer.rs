@@ -12,6 +12,9 @@ pub struct Layer {
     pub print_z: f64,
     /// The region that is solid at `cut_z`: disjoint polygons, exteriors counter-clockwise.
     pub outline: MultiPolygon<f64>,
+    /// Where a bead fits: the outline inset by w/2. Its rings are the first walls, but for the lines there and back along
+    /// what is too thin.
+    pub walled: MultiPolygon<f64>,
     /// The wall loops: simple, pairwise disjoint, on the output grid.
     pub walls: Vec<WallLoop>,
     /// What of the outline is not, or not quite, printed by these walls.

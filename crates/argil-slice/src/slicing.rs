@@ -3,7 +3,7 @@ use crate::layer::{Layer, Loss};
 use crate::region::wound_region;
 use crate::section::Sweep;
 use crate::settings::MOST_LAYERS;
-use crate::wall::walls;
+use crate::wall::{Walls, walls};
 use crate::{SliceError, SliceSettings};
 use argil_mesh::Mesh;
 use glam::DVec2;
@@ -87,9 +87,10 @@ impl UnclosedSection {
         };
         let mut losses: Vec<Loss> = self.open.iter().filter_map(unclosed).collect();
         let outline = wound_region(self.contours, LEAST_AREA);
-        let (walls, mut lost) = walls(index, &outline, settings);
-        losses.append(&mut lost);
-        Layer { index, cut_z: self.cut_z, print_z: self.print_z, outline, walls, losses }
+        let mut inset = walls(index, &outline, settings);
+        losses.append(&mut inset.losses);
+        let Walls { walled, walls, .. } = inset;
+        Layer { index, cut_z: self.cut_z, print_z: self.print_z, outline, walled, walls, losses }
     }
 }
 

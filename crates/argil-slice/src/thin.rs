@@ -1,7 +1,7 @@
 //! Walls that follow what is thinner than a bead.
 
 use crate::containment::contains;
-use crate::region::{ring_points, rings, swept};
+use crate::region::{perimeter, ring_points, rings, swept};
 use crate::spine::sides;
 use argil_curve::{Segment, SegmentIndex};
 use geo::{Area, BooleanOps};
@@ -18,11 +18,20 @@ const SPECK: f64 = 0.1;
 /// Holes smaller than this, in w², are gaps between a spine and its wall.
 const LEAST_HOLE: f64 = 0.01;
 
+/// Pockets of solid that a spine shuts off from its wall and that are shorter round than this, in w, are covered by the beads around
+/// them. A loop of their own could only be reached through the wall, with less than a bead along it.
+const LEAST_POCKET: f64 = 2.0;
+
 /// The region whose boundary runs along these walls and to both sides of each spine.
 ///
 /// A spine that closes round a hole gives two loops side by side. Where nothing but the spine lies between them, the
-/// inner one is left out, and the spine is printed once.
-pub(crate) fn with_spines(walls: &MultiPolygon<f64>, spines: &[Vec<DVec2>], width: f64) -> MultiPolygon<f64> {
+/// inner one is left out, and the spine is printed once. `outline` has the rings of the outline.
+pub(crate) fn with_spines(
+    walls: &MultiPolygon<f64>,
+    spines: &[Vec<DVec2>],
+    outline: &[Vec<DVec2>],
+    width: f64,
+) -> MultiPolygon<f64> {
     let mut joined = walls.union(&swept(spines, HALF_LANE * width));
     let lines = spines.iter().flat_map(|spine| spine.windows(2));
     let lines = SegmentIndex::new(lines.map(|pair| Segment::new(pair[0], pair[1])).collect(), width);
@@ -36,8 +45,11 @@ pub(crate) fn with_spines(walls: &MultiPolygon<f64>, spines: &[Vec<DVec2>], widt
         let near = 3.0 * HALF_LANE * width;
         let stays = |hole: &LineString<f64>| {
             let area = Polygon::new(hole.clone(), Vec::new()).unsigned_area();
-            let is_beside = || ring_points(hole).iter().all(|&p| outer.nearest_within(p, near).is_some());
-            area >= LEAST_HOLE * width * width && !is_beside()
+            let points = ring_points(hole);
+            let is_beside = || points.iter().all(|&p| outer.nearest_within(p, near).is_some());
+            let is_pocket = || !outline.iter().any(|ring| contains(&points, ring[0]));
+            let is_small = perimeter(&points) < LEAST_POCKET * width;
+            area >= LEAST_HOLE * width * width && !is_beside() && !(is_small && is_pocket())
         };
         let holes = polygon.interiors().iter().filter(|hole| stays(hole)).cloned().collect();
         *polygon = Polygon::new(polygon.exterior().clone(), holes);

@@ -44,12 +44,17 @@ struct Cleaning {
     tolerance: f64,
 }
 
+/// The walls of an outline.
+pub(crate) struct Walls {
+    /// Where a bead fits.
+    pub(crate) walled: MultiPolygon<f64>,
+    pub(crate) walls: Vec<WallLoop>,
+    /// What the walls do not print.
+    pub(crate) losses: Vec<Loss>,
+}
+
 /// The walls of a layer's outline, and what of it they do not print.
-pub(crate) fn walls(
-    layer: usize,
-    outline: &MultiPolygon<f64>,
-    settings: &SliceSettings,
-) -> (Vec<WallLoop>, Vec<Loss>) {
+pub(crate) fn walls(layer: usize, outline: &MultiPolygon<f64>, settings: &SliceSettings) -> Walls {
     let mut losses = Vec::new();
     let mut pieces: Vec<Piece<'_>> = Vec::new();
     let simple: Vec<Polygon<f64>> = outline.iter().map(|polygon| simpler(polygon, settings.width)).collect();
@@ -80,7 +85,8 @@ pub(crate) fn walls(
     }
     let mut walls: Vec<WallLoop> = pieces.into_iter().flat_map(Piece::into_loops).collect();
     nest(&mut walls);
-    (walls, losses)
+    let walled = firsts.into_iter().flat_map(|first| first.walled).collect();
+    Walls { walled: MultiPolygon(walled), walls, losses }
 }
 
 /// The first wall of an outline and how it came about.
@@ -106,7 +112,7 @@ impl<'a> FirstWall<'a> {
             spines = spine::spines(&outline, &index, width);
         }
         if !spines.is_empty() {
-            let joined = with_spines(&walled, &spines, width);
+            let joined = with_spines(&walled, &spines, &outline, width);
             let piece = |region: Polygon<f64>| {
                 let thin = has_spine(&region, &spines);
                 Source { thin, ..source }.piece(region, ATTEMPTS[0], settings)

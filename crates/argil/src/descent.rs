@@ -15,6 +15,7 @@ use crate::clearance::SafeguardField;
 use crate::error::LayerFault;
 use crate::foothold::{Foothold, foothold, hold_start};
 use crate::hold::{Check, Fault};
+use crate::passage::Walled;
 use crate::stages::{Route, Smooth, Support, Tauten};
 use crate::{LayerReport, PlanError, Progress, Settings, StageTimes};
 
@@ -28,6 +29,32 @@ pub(crate) struct PlannedLayer {
     pub(crate) supports: Vec<SupportPoint>,
     /// Arc length of a place where the layer may begin.
     pub(crate) foothold: f64,
+}
+
+/// What is wrong with a layer, and where.
+type Flaw = (LayerFault, Option<DVec2>);
+
+/// How often a layer is planned again with the places of what is wrong barred.
+const RETRIES: usize = 3;
+
+/// What the attempts at a layer share.
+struct Site<'a> {
+    layer: &'a Layer,
+    curves: &'a [ClosedCurve],
+    walls: SegmentIndex,
+    supports: Vec<SupportPoint>,
+    field: SafeguardField,
+    above: Option<&'a ClosedCurve>,
+    start: Option<Foothold>,
+    /// The index of the support that the start asks for.
+    guide: Option<usize>,
+}
+
+/// A cycle that holds the layer above and crosses itself nowhere.
+struct Attempt {
+    report: LayerReport,
+    curve: ClosedCurve,
+    legs: Vec<Leg>,
 }
 
 /// The stages that a descent uses, and what it has learnt so far.
@@ -75,6 +102,8 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
         Ok(planned)
     }
 
+    /// Plans a layer; again, with the places of what is wrong kept free of attachments, where a strand would go through a wall or
+    /// no sound path is found. If that does not help, the plan with the fewest passages stands.
     fn layer(
         &mut self,
         layer: &Layer,
@@ -82,41 +111,75 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
         safeguard: &MultiPolygon<f64>,
         above: Option<&ClosedCurve>,
         start: Option<Foothold>,
-    ) -> Result<PlannedLayer, (LayerFault, Option<DVec2>)> {
+    ) -> Result<PlannedLayer, Flaw> {
         let settings = self.settings;
-        let walls: Vec<Wall<'_>> =
-            layer.walls.iter().map(|w| Wall { points: &w.points, parent: w.parent }).collect();
-        let wall_index = SegmentIndex::of_curves(curves, settings.width);
-
+        let walls = SegmentIndex::of_curves(curves, settings.width);
         let support = &mut self.support;
         let mut supports = timed(&mut self.times.support, || {
-            above.map_or_else(Vec::new, |above| support.points(above, &wall_index, settings))
+            above.map_or_else(Vec::new, |above| support.points(above, &walls, settings))
         });
         let guide = start.and_then(|start| hold_start(start, &mut supports, settings));
+        let field = SafeguardField::new(safeguard, 2.0 * settings.width);
+        let site = Site { layer, curves, walls, supports, field, above, start, guide };
+
+        let walled = Walled::new(&layer.walled, settings.width);
+        let passages = |done: &Attempt| walled.passages(&done.curve);
+        let mut barred = Vec::new();
+        let mut best = self.attempt(&site, &barred);
+        let mut fewest = best.as_ref().map_or(usize::MAX, |done| passages(done).len());
+        let mut flawed = places(&best, passages);
+        for _ in 0..RETRIES {
+            if flawed.is_empty() || !self.checked {
+                break;
+            }
+            barred.append(&mut flawed);
+            let next = self.attempt(&site, &barred);
+            flawed = places(&next, passages);
+            if next.is_ok() && flawed.len() < fewest {
+                (best, fewest) = (next, flawed.len());
+            }
+        }
+        let Attempt { report, curve, legs } = best?;
+        Ok(PlannedLayer { report, z: layer.print_z, curve, legs, supports: site.supports, foothold: 0.0 })
+    }
+
+    /// Plans a layer with no attachment near the barred places.
+    fn attempt(&mut self, site: &Site<'_>, barred: &[DVec2]) -> Result<Attempt, Flaw> {
+        let settings = self.settings;
+        let Site { layer, curves, walls: wall_index, supports, field, above, start, guide } = site;
+        let walls: Vec<Wall<'_>> =
+            layer.walls.iter().map(|w| Wall { points: &w.points, parent: w.parent }).collect();
         let demands: Vec<Demand> =
             supports.iter().map(|s| Demand { position: s.position, anchors: s.needs.clone() }).collect();
-
-        let field = SafeguardField::new(safeguard, 2.0 * settings.width);
         let above_index = above.map(|c| SegmentIndex::of_curves([c], settings.width));
         let rings = field.polylines();
-        let input =
-            LayerInput { walls: &walls, demands: &demands, safeguard: &rings, above: above_index.as_ref() };
+        let input = LayerInput {
+            walls: &walls,
+            demands: &demands,
+            safeguard: &rings,
+            above: above_index.as_ref(),
+            barred,
+        };
         let route = &mut self.route;
         let candidate = timed(&mut self.times.route, || route.cycle(&input, settings))
             .map_err(|fault| (fault.into(), None))?;
 
-        let check =
-            Check { above, criterion: settings.criterion(), width: settings.width, grid: settings.grid };
+        let check = Check {
+            above: *above,
+            criterion: settings.criterion(),
+            width: settings.width,
+            grid: settings.grid,
+        };
         let felt = outside(&candidate, curves);
-        let (points, pulled_back) = self.smoothed(&candidate, &supports, (&field, &felt), &check)?;
+        let (points, pulled_back) = self.smoothed(&candidate, supports, (field, &felt), &check)?;
         let mut fixed = candidate.fixed.clone();
-        candidate.carriers.iter().filter(|c| Some(c.1) == guide).for_each(|c| fixed[c.0] = true);
+        candidate.carriers.iter().filter(|c| Some(c.1) == *guide).for_each(|c| fixed[c.0] = true);
         let slack = SlackPath {
             points: &points,
             fixed: &fixed,
-            above,
+            above: *above,
             starts: &start.map(|s| s.at).into_iter().collect::<Vec<_>>(),
-            walls: &wall_index,
+            walls: wall_index,
             clear_of: Some(&|p| field.distance(p).0),
             felt: &felt,
         };
@@ -150,7 +213,7 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
         };
         let (points, legs) = without_repeats(&cycle);
         let curve = ClosedCurve::new(points).map_err(|e| (e.into(), None))?;
-        Ok(PlannedLayer { report, z: layer.print_z, curve, legs, supports, foothold: 0.0 })
+        Ok(Attempt { report, curve, legs })
     }
 
     /// The smoothed candidate, repaired until it holds the cycle above, and how many vertices that pulled back.
@@ -160,7 +223,7 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
         supports: &[SupportPoint],
         (field, felt): (&SafeguardField, &[bool]),
         check: &Check<'_>,
-    ) -> Result<(Vec<DVec2>, usize), (LayerFault, Option<DVec2>)> {
+    ) -> Result<(Vec<DVec2>, usize), Flaw> {
         let settings = self.settings;
         let envelope = settings.envelope();
         let carriers: Vec<Carrier> = candidate
@@ -197,6 +260,14 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
             Fault::Crossing { at } => (LayerFault::Crossing, at.first().copied()),
         })?;
         Ok((points, pulled_back))
+    }
+}
+
+/// Where a layer is to be planned otherwise: its passages, or where it failed.
+fn places(plan: &Result<Attempt, Flaw>, passages: impl Fn(&Attempt) -> Vec<DVec2>) -> Vec<DVec2> {
+    match plan {
+        Ok(done) => passages(done),
+        Err((_, at)) => at.iter().copied().collect(),
     }
 }
 

@@ -31,6 +31,7 @@ mod error;
 mod foothold;
 mod hold;
 pub mod literal;
+mod passage;
 mod plan;
 mod planner;
 mod settings;

@@ -159,7 +159,7 @@ impl<S: Slice, G: Safeguard, U: Support, R: Route, E: Smooth, T: Tauten, C: Seam
             return Err(PlanError::Nothing);
         }
         let seam = &mut self.seam;
-        let strand = timed(&mut times.seam, || strand(&planned, seam, settings))?;
+        let strand = timed(&mut times.seam, || strand(&planned, seam, settings, self.checked))?;
         Ok(Plan {
             strand,
             layers: planned.iter().map(|layer| layer.report).collect(),

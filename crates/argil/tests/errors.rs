@@ -177,7 +177,15 @@ fn layer(index: usize, walls: Vec<WallLoop>) -> Layer {
     let outline = MultiPolygon(filled.collect());
     let h = Settings::default().layer_height;
     let below = index as f64 * h;
-    Layer { index, cut_z: below + 0.5 * h, print_z: below + h, outline, walls, losses: vec![] }
+    Layer {
+        index,
+        cut_z: below + 0.5 * h,
+        print_z: below + h,
+        outline,
+        walled: MultiPolygon(Vec::new()),
+        walls,
+        losses: vec![],
+    }
 }
 
 fn empty(index: usize) -> Layer {

@@ -1,0 +1,121 @@
+//! Strand that goes through a wall.
+//!
+//! Strand that joins a wall runs along it for a while before it leaves, so that the wall is whole where the strand is
+//! broken off. Where a wall turns off into the line along a thin part, strand that comes from inside and goes on along that
+//! line crosses no loop, and yet pierces the wall as one sees it.
+
+use argil_curve::{ClosedCurve, DVec2, SegmentIndex};
+use geo_types::MultiPolygon;
+
+/// Strand nearer than this to where a bead fits is on the wall, in w.
+const BESIDE: f64 = 1.0 / 6.0;
+
+/// Least length along the wall between one side and the other, in w.
+const ALONG: f64 = 1.05;
+
+/// Spacing of the samples, in w. Less than twice [`BESIDE`], so that no change of sides is missed.
+const STEP: f64 = 0.15;
+
+/// Where a bead fits in a layer.
+pub(crate) struct Walled {
+    rings: Vec<ClosedCurve>,
+    sides: SegmentIndex,
+    width: f64,
+}
+
+impl Walled {
+    pub(crate) fn new(region: &MultiPolygon<f64>, width: f64) -> Self {
+        let rings = region.iter().flat_map(|part| std::iter::once(part.exterior()).chain(part.interiors()));
+        let points = rings.map(|ring| ring.0.iter().map(|c| DVec2::new(c.x, c.y)).collect::<Vec<_>>());
+        let rings: Vec<ClosedCurve> = points
+            .filter_map(|mut ring| {
+                ring.dedup();
+                if ring.first() == ring.last() {
+                    ring.pop();
+                }
+                ClosedCurve::new(ring).ok()
+            })
+            .collect();
+        let sides = SegmentIndex::of_curves(&rings, width);
+        Self { rings, sides, width }
+    }
+
+    fn contains(&self, p: DVec2) -> bool {
+        self.rings.iter().filter(|ring| ring.contains(p)).count() % 2 == 1
+    }
+
+    /// Where a closed path gets from outside to inside, or back, with less than a bead along the wall between.
+    ///
+    /// # Complexity
+    /// O(n k + r s) for n samples with k sides near, and r changes from wall to free strand among s sides.
+    pub(crate) fn passages(&self, path: &ClosedCurve) -> Vec<DVec2> {
+        if self.rings.is_empty() {
+            return Vec::new();
+        }
+        let count = (path.length() / (STEP * self.width)).ceil().clamp(3.0, 1e7) as usize;
+        let step = path.length() / count as f64;
+        let mut found = Vec::new();
+        // The side that the path was on before it met the wall, and how long it has run along the wall since.
+        let (mut last, mut run) = (None, 0.0);
+        let mut is_free = false;
+        for k in 0..count {
+            let p = path.point_at((k as f64 + 0.5) * step);
+            if self.sides.is_within(p, BESIDE * self.width) {
+                run += step;
+                is_free = false;
+            } else if !is_free {
+                is_free = true;
+                let inside = self.contains(p);
+                if last.is_some_and(|side| side != inside) && run < ALONG * self.width {
+                    found.push(p);
+                }
+                (last, run) = (Some(inside), 0.0);
+            }
+        }
+        found
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use geo_types::polygon;
+
+    fn path(points: &[(f64, f64)]) -> ClosedCurve {
+        ClosedCurve::new(points.iter().map(|&p| DVec2::from(p)).collect()).unwrap()
+    }
+
+    fn tile() -> Walled {
+        let tile = polygon![(x: 0.0, y: 0.0), (x: 20.0, y: 0.0), (x: 20.0, y: 20.0), (x: 0.0, y: 20.0)];
+        Walled::new(&MultiPolygon(vec![tile]), 1.5)
+    }
+
+    #[test]
+    fn a_strand_that_runs_along_the_wall_first_joins_it() {
+        let joined = path(&[
+            (5.0, 0.0),
+            (5.0, -3.0),
+            (8.0, -3.0),
+            (8.0, 0.0),
+            (11.0, 0.0),
+            (11.0, 4.0),
+            (0.0, 4.0),
+            (0.0, 0.0),
+        ]);
+        assert_eq!(tile().passages(&joined), []);
+    }
+
+    #[test]
+    fn a_strand_that_does_not_goes_through_it() {
+        let pierced = path(&[(5.0, -3.0), (8.0, -3.0), (8.0, 0.0), (8.2, 0.0), (8.2, 4.0), (5.0, 4.0)]);
+        let found = tile().passages(&pierced);
+        assert_eq!(found.len(), 2, "in and out again: {found:?}");
+        assert!(found.iter().all(|p| p.y.abs() < 1.0));
+    }
+
+    #[test]
+    fn where_no_bead_fits_there_is_no_wall_to_pierce() {
+        let nothing = Walled::new(&MultiPolygon(Vec::new()), 1.5);
+        assert_eq!(nothing.passages(&path(&[(0.0, 0.0), (9.0, 0.0), (0.0, 9.0)])), []);
+    }
+}
