@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
+use crate::machine::Job;
 use crate::machine_args::MachineArgs;
 
 /// Plans clay prints in one unbroken strand, and audits any g-code file.
@@ -25,6 +26,9 @@ pub(crate) enum Command {
     /// Measure a g-code file of any slicer against its model, by geometry alone.
     #[command(after_help = EXIT_STATUS)]
     Audit(Box<AuditArgs>),
+    /// Write test prints that measure a paste, and the page that tells how to read them.
+    #[command(after_help = CALIBRATE_EXAMPLES)]
+    Calibrate(Box<CalibrateArgs>),
     /// List the bundled models; plan one with `argil plan sample:NAME`.
     Samples,
     /// List the printers that argil knows, or show one with the source of every value.
@@ -62,6 +66,12 @@ const PLAN_EXAMPLES: &str = "Examples:
   argil plan sample:cup -o cup.gcode --svg layers --report cup.json
 
 Exit status: 0 done, 2 wrong usage, 3 bad input, 4 a plan with findings.";
+
+const CALIBRATE_EXAMPLES: &str = "Examples:
+  argil calibrate tests --width 3
+  argil calibrate tests --printer eazao-zero --material stoneware --width 3 --layer-height 1
+
+Print fan, windows and ring, and read them by legend.svg: it has the line that each reading gives for a file of your own.";
 
 /// What a model is printed with.
 #[derive(Clone, Debug, clap::Args)]
@@ -153,6 +163,9 @@ pub(crate) struct PlanArgs {
     pub(crate) place: PlaceArgs,
     #[command(flatten)]
     pub(crate) machine: MachineArgs,
+    /// Write a table of poses for robot cells as well.
+    #[arg(long, value_name = "OUT.csv")]
+    pub(crate) poses: Option<PathBuf>,
     /// Follow the paper's text literally where it is definite. For comparison: such a plan is not sound.
     #[arg(long)]
     pub(crate) paper_exact: bool,
@@ -162,6 +175,28 @@ pub(crate) struct PlanArgs {
     /// How many threads to use. The result is the same for any number.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) threads: u16,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct CalibrateArgs {
+    /// The folder that the test prints and their legend go to.
+    #[arg(value_name = "DIR")]
+    pub(crate) folder: PathBuf,
+    /// A printer: a name that `argil printers` lists, or a TOML file.
+    #[arg(long, value_name = "NAME|FILE")]
+    pub(crate) printer: Option<String>,
+    /// A paste to begin with: a name that `argil materials` lists, or a TOML file. It gives bead and speed where the
+    /// printer does not.
+    #[arg(long, value_name = "NAME|FILE")]
+    pub(crate) material: Option<String>,
+    /// Bead width in mm [default: the printer's, the material's, or 1.5].
+    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
+    pub(crate) width: Option<f64>,
+    /// Layer height in mm [default: with the width, or a third of it].
+    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
+    pub(crate) layer_height: Option<f64>,
+    #[command(flatten)]
+    pub(crate) machine: MachineArgs,
 }
 
 #[derive(Debug, clap::Args)]
@@ -182,4 +217,26 @@ pub(crate) struct AuditArgs {
     pub(crate) bead: BeadArgs,
     #[command(flatten)]
     pub(crate) place: PlaceArgs,
+}
+
+impl PlanArgs {
+    /// What is written for the machine.
+    pub(crate) fn job(&self) -> Job<'_> {
+        Job { model: &self.model, bead: &self.bead, machine: &self.machine }
+    }
+}
+
+impl CalibrateArgs {
+    /// The bead of the test prints, as plans take it.
+    pub(crate) fn bead(&self) -> BeadArgs {
+        BeadArgs {
+            printer: self.printer.clone(),
+            material: self.material.clone(),
+            width: self.width,
+            layer_height: self.layer_height,
+            walls: 1,
+            across: None,
+            along: None,
+        }
+    }
 }

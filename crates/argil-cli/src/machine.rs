@@ -3,25 +3,34 @@
 use std::fs;
 use std::path::Path;
 
+use argil::Settings;
 use argil::gcode::{Extrusion, Flavour, GcodeSettings, RoleNames};
 use argil::strand::{BeadShape, Strand};
-use argil::{Plan, Settings};
 use argil_preview::{ViewStyle, overview_svg, png, thumbnail};
 use argil_printers::{Bead, Fact, Printer, render};
 
-use crate::args::PlanArgs;
+use crate::args::BeadArgs;
 use crate::failure::Failure;
 use crate::machine_args::{EMode, FlavourArg, MachineArgs, Viewer};
 use crate::profiles::Profiles;
 
+/// What is written for a machine: a plan or a test print.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Job<'a> {
+    /// What is printed, as it was named.
+    pub(crate) model: &'a str,
+    pub(crate) bead: &'a BeadArgs,
+    pub(crate) machine: &'a MachineArgs,
+}
+
 /// The settings of the g-code as far as they are known before there is a plan: options first, then the printer, then the
 /// material, then defaults. What cannot be is refused here, so that no long plan ends with it.
 pub(crate) fn gcode_settings(
-    args: &PlanArgs,
+    job: &Job<'_>,
     settings: &Settings,
     profiles: &Profiles,
 ) -> Result<GcodeSettings, Failure> {
-    let machine = &args.machine;
+    let machine = job.machine;
     let usual = GcodeSettings::default();
     let printer = profiles.printer.as_ref();
     let of = |fact: fn(&Printer) -> &Fact<f64>| printer.and_then(|p| fact(p).value()).copied();
@@ -51,7 +60,7 @@ pub(crate) fn gcode_settings(
             Viewer::OrcaSlicer => RoleNames::orca_slicer(),
             Viewer::Cura => RoleNames::cura(),
         },
-        header: header(args, settings),
+        header: header(job, settings),
         start: template(machine.start.as_deref(), printer.map(|p| &p.start))?,
         end: template(machine.end.as_deref(), printer.map(|p| &p.end))?,
         ..usual
@@ -73,13 +82,13 @@ fn template(file: Option<&Path>, fact: Option<&Fact<String>>) -> Result<String, 
 }
 
 /// Adds what only the plan tells: the thumbnail, and what names in braces stand for.
-pub(crate) fn complete(written: &mut GcodeSettings, args: &PlanArgs, plan: &Plan) -> Result<(), Failure> {
-    if let Some(pixels) = args.machine.thumbnail {
-        let svg = overview_svg(&plan.strand, &ViewStyle { bed: false, ..ViewStyle::default() });
+pub(crate) fn complete(written: &mut GcodeSettings, job: &Job<'_>, strand: &Strand) -> Result<(), Failure> {
+    if let Some(pixels) = job.machine.thumbnail {
+        let svg = overview_svg(strand, &ViewStyle { bed: false, ..ViewStyle::default() });
         let failed = |source| Failure::Output { what: "thumbnail", source: Box::new(source) };
         written.preface = thumbnail(&png(&svg, pixels).map_err(failed)?);
     }
-    let values = values(args, &plan.strand, written);
+    let values = values(job, strand, written);
     for (name, code) in [("start code", &mut written.start), ("end code", &mut written.end)] {
         *code = render(code, &values).map_err(|source| Failure::input(name, source))?;
     }
@@ -116,17 +125,17 @@ fn extrusion(machine: &MachineArgs, printer: Option<&Printer>) -> Extrusion {
     }
 }
 
-fn header(args: &PlanArgs, settings: &Settings) -> Vec<(String, String)> {
+fn header(job: &Job<'_>, settings: &Settings) -> Vec<(String, String)> {
     let mut header = vec![
-        ("model", args.model.clone()),
+        ("model", job.model.to_owned()),
         ("width", settings.width.to_string()),
         ("layer height", settings.layer_height.to_string()),
         ("walls", settings.walls.to_string()),
         ("across", settings.material.across.to_string()),
         ("along", settings.material.along.to_string()),
     ];
-    header.extend(args.bead.printer.iter().map(|name| ("printer", name.clone())));
-    header.extend(args.bead.material.iter().map(|name| ("material", name.clone())));
+    header.extend(job.bead.printer.iter().map(|name| ("printer", name.clone())));
+    header.extend(job.bead.material.iter().map(|name| ("material", name.clone())));
     header.into_iter().map(|(key, value)| (key.to_owned(), value)).collect()
 }
 
@@ -147,7 +156,7 @@ const NAMES: [&str; 12] = [
 ];
 
 /// What they stand for: places in mm, speeds in mm/min as F takes them.
-fn values(args: &PlanArgs, strand: &Strand, written: &GcodeSettings) -> Vec<(&'static str, String)> {
+fn values(job: &Job<'_>, strand: &Strand, written: &GcodeSettings) -> Vec<(&'static str, String)> {
     let layers = strand.layers();
     let (first, last) = (layers.first().map_or(0.0, |l| l.z), layers.last().map_or(0.0, |l| l.z));
     let numbers = [
@@ -165,36 +174,46 @@ fn values(args: &PlanArgs, strand: &Strand, written: &GcodeSettings) -> Vec<(&'s
     ];
     let texts = numbers.map(|value| ((value * 1e4).round() / 1e4).to_string());
     // A name with a line's end in it would go on as code.
-    let model = args.model.replace(char::is_control, " ");
+    let model = job.model.replace(char::is_control, " ");
     NAMES.into_iter().zip(texts.into_iter().chain([model])).collect()
 }
 
 /// What is to be said about a plan on its printer: what was taken because it is unknown, and whether it fits.
-pub(crate) fn remarks(profiles: &Profiles, args: &PlanArgs, plan: &Plan) -> Vec<String> {
+pub(crate) fn remarks(profiles: &Profiles, job: &Job<'_>, strand: &Strand) -> Vec<String> {
     let mut remarks = Vec::new();
-    if let (Some(name), Some(material)) = (&args.bead.material, &profiles.material) {
-        let facts = [
-            ("overhang", &material.overhang, args.bead.across),
-            ("bridge", &material.bridge, args.bead.along),
-        ];
+    if let (Some(name), Some(material)) = (&job.bead.material, &profiles.material) {
+        let facts =
+            [("overhang", &material.overhang, job.bead.across), ("bridge", &material.bridge, job.bead.along)];
         for (what, fact, given) in facts {
             if fact.value().is_none() && given.is_none() {
                 remarks.push(format!(
-                    "the {what} that {name} bears is unknown: that of the paper's clay is taken"
+                    "the {what} that {name} bears is unknown: that of the paper's clay is taken; `argil calibrate` \
+                     finds your own"
                 ));
             }
         }
     }
-    let (Some(name), Some(printer)) = (&args.bead.printer, &profiles.printer) else { return remarks };
-    let machine = &args.machine;
+    remarks.extend(unknown_flow(profiles, job));
+    let advice = "; --place bed centres it, --scale makes it smaller";
+    remarks.extend(misfit(profiles, job, strand).map(|remark| remark + advice));
+    remarks
+}
+
+/// What was taken because the printer's flow is unknown.
+pub(crate) fn unknown_flow(profiles: &Profiles, job: &Job<'_>) -> Option<String> {
+    let (name, printer) = (job.bead.printer.as_ref()?, profiles.printer.as_ref()?);
+    let machine = job.machine;
     let other_e =
         machine.mm3_per_e.is_some() || machine.volumetric.is_some() || machine.constant_rate.is_some();
-    if let (Some(why), false, false) = (printer.mm3_per_e.unknown(), other_e, is_robot(profiles)) {
-        remarks
-            .push(format!("mm3_per_e of {name} is unknown ({why}): 2.405 is taken; set it by --mm3-per-e"));
-    }
+    let why = printer.mm3_per_e.unknown().filter(|_| !other_e && !is_robot(profiles))?;
+    Some(format!("mm3_per_e of {name} is unknown ({why}): 2.405 is taken; set it by --mm3-per-e"))
+}
+
+/// A warning where the strand reaches beyond its printer.
+pub(crate) fn misfit(profiles: &Profiles, job: &Job<'_>, strand: &Strand) -> Option<String> {
+    let (name, printer) = (job.bead.printer.as_ref()?, profiles.printer.as_ref()?);
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    for layer in plan.strand.layers() {
+    for layer in strand.layers() {
         let half = layer.width / 2.0;
         for to in layer.moves.iter().map(|step| step.to) {
             for (axis, (value, half)) in [(to.x, half), (to.y, half), (layer.z, 0.0)].into_iter().enumerate()
@@ -204,14 +223,12 @@ pub(crate) fn remarks(profiles: &Profiles, args: &PlanArgs, plan: &Plan) -> Vec<
             }
         }
     }
-    if printer.reaches(low, high) == Some(false) {
-        remarks.push(format!(
-            "warning: the print reaches from ({:.1}, {:.1}) to ({:.1}, {:.1}) and {:.1} mm up, beyond {name}; \
-             --place bed centres it, --scale makes it smaller",
+    (printer.reaches(low, high) == Some(false)).then(|| {
+        format!(
+            "warning: the print reaches from ({:.1}, {:.1}) to ({:.1}, {:.1}) and {:.1} mm up, beyond {name}",
             low[0], low[1], high[0], high[1], high[2]
-        ));
-    }
-    remarks
+        )
+    })
 }
 
 /// Whether the printer takes a table of poses in place of g-code.

@@ -50,9 +50,6 @@ pub(crate) struct MachineArgs {
     /// Code after the strand, from a file with names in braces [default: the printer's].
     #[arg(long, value_name = "FILE")]
     pub(crate) end: Option<PathBuf>,
-    /// Write a table of poses for robot cells as well.
-    #[arg(long, value_name = "OUT.csv")]
-    pub(crate) poses: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

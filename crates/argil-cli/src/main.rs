@@ -7,6 +7,7 @@
 
 mod args;
 mod audit_command;
+mod calibrate_command;
 mod config;
 mod failure;
 mod input;
@@ -51,6 +52,7 @@ fn run(typed: Vec<OsString>) -> Result<ExitCode, Failure> {
     match args.command {
         Command::Plan(args) => plan_command::run(&args),
         Command::Audit(args) => audit_command::run(&args),
+        Command::Calibrate(args) => calibrate_command::run(&args),
         Command::Samples => Ok(samples_command::run()),
         Command::Printers { name } => list_command::list_printers(name.as_deref()),
         Command::Materials { name } => list_command::list_materials(name.as_deref()),

@@ -27,15 +27,14 @@ const PICTURE: u32 = 1600;
 pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
     let profiles = Profiles::of(&args.bead)?;
     let settings = input::settings(&args.bead, &profiles)?;
-    let mut written = machine::gcode_settings(args, &settings, &profiles)?;
-    let files =
-        [&args.report, &args.strand, &args.png, &args.preview, &args.machine.poses].map(Option::as_ref);
+    let mut written = machine::gcode_settings(&args.job(), &settings, &profiles)?;
+    let files = [&args.report, &args.strand, &args.png, &args.preview, &args.poses].map(Option::as_ref);
     files.into_iter().chain([Some(&args.output)]).flatten().try_for_each(|path| output::check(path))?;
     let mesh = input::model(&args.model, args.place, &profiles)?;
     let plan =
         plan(&mesh, &settings, args)?.map_err(|source| Failure::Plan { name: args.model.clone(), source })?;
 
-    machine::complete(&mut written, args, &plan)?;
+    machine::complete(&mut written, &args.job(), &plan.strand)?;
     let gcode = gcode(&plan, &written)?;
     let audit = audited_and_drawn(args, &plan, &audited(&plan, &written, &gcode)?, &mesh, &settings)?;
     let poses = || Poses::new(&plan.strand, &written).map(|poses| poses.to_string()).map_err(unwritten);
@@ -44,7 +43,7 @@ pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
     } else {
         output::write(&args.output, gcode.as_bytes())?;
     }
-    if let Some(path) = &args.machine.poses {
+    if let Some(path) = &args.poses {
         output::write(path, poses()?.as_bytes())?;
     }
     if let Some(path) = &args.preview {
@@ -58,7 +57,7 @@ pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
         output::write(path, &json(&PlanReport::new(&args.model, settings, &plan, audit.as_ref()))?)?;
     }
 
-    machine::remarks(&profiles, args, &plan).iter().for_each(|remark| eprintln!("{remark}"));
+    machine::remarks(&profiles, &args.job(), &plan.strand).iter().for_each(|remark| eprintln!("{remark}"));
     Ok(verdict(args, &plan, audit.as_ref()))
 }
 

@@ -255,3 +255,29 @@ fn shells_and_manual_readers_are_served() {
     let (page, _) = ends(&folder, 0, &["man"]);
     assert!(page.contains(".TH argil") && page.contains("first\\-layer\\-feed"), "{page}");
 }
+
+#[test]
+fn test_prints_go_the_way_of_plans() {
+    let folder = folder("calibrate");
+    let (out, err) = ends(&folder, 0, &["calibrate", "tests", "--printer", "eazao-zero", "--width", "3"]);
+    assert!(out.is_empty() && !err.contains("warning"), "{out}{err}");
+    let read = |name: &str| fs::read_to_string(folder.join("tests").join(name)).unwrap();
+    for name in ["fan.gcode", "windows.gcode", "ring.gcode"] {
+        let text = read(name);
+        let moves: Vec<&str> =
+            text.lines().filter(|line| line.starts_with("G1 ") && line.contains('X')).collect();
+        let wet = |line: &&str| line.contains(" E");
+        let first = moves.iter().position(wet).unwrap();
+        let last = moves.iter().rposition(|line| wet(&line)).unwrap();
+        assert!(last - first > 100 && moves[first..=last].iter().all(wet), "{name}");
+        // The printer's start code, and its bed: 150 mm square.
+        assert!(text.contains("G28"), "{name}");
+    }
+    assert!(read("legend.svg").contains("mm3_per_e = { value = 2.4050, source"));
+
+    ends(&folder, 0, &["calibrate", "cell", "--printer", "robot-cell", "--width", "3"]);
+    assert!(fs::read_to_string(folder.join("cell/fan.csv")).unwrap().lines().count() > 100);
+    let (_, err) = ends(&folder, 3, &["calibrate", "high", "--width", "1", "--layer-height", "9"]);
+    assert!(err.contains("layer"), "{err}");
+    assert!(!folder.join("high").exists());
+}
