@@ -268,7 +268,7 @@ fn test_prints_go_the_way_of_plans() {
             text.lines().filter(|line| line.starts_with("G1 ") && line.contains('X')).collect();
         let wet = |line: &&str| line.contains(" E");
         let first = moves.iter().position(wet).unwrap();
-        let last = moves.iter().rposition(|line| wet(&line)).unwrap();
+        let last = moves.iter().rposition(&wet).unwrap();
         assert!(last - first > 100 && moves[first..=last].iter().all(wet), "{name}");
         // The printer's start code, and its bed: 150 mm square.
         assert!(text.contains("G28"), "{name}");
