@@ -7,6 +7,7 @@ use clap_complete::Shell;
 
 use crate::machine::Job;
 use crate::machine_args::MachineArgs;
+use crate::shrinkage::Shrinkage;
 
 /// Plans clay prints in one unbroken strand, and audits any g-code file.
 #[derive(Debug, Parser)]
@@ -113,6 +114,10 @@ pub(crate) struct PlaceArgs {
     /// Scale the model to this height in mm.
     #[arg(long, value_name = "MM", allow_negative_numbers = true)]
     pub(crate) height: Option<f64>,
+    /// What the clay shrinks by from wet to fired, in per cent: the model is enlarged, so that the fired piece has its size. One
+    /// number, or one for each axis.
+    #[arg(long, value_name = "PERCENT[,Y,Z]", allow_hyphen_values = true)]
+    pub(crate) shrinkage: Option<Shrinkage>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

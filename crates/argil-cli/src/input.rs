@@ -21,9 +21,12 @@ pub(crate) fn model(name: &str, place: PlaceArgs, profiles: &Profiles) -> Result
         None => std::fs::read(name).map_err(|source| Failure::reading(Path::new(name), source))?,
     };
     let mesh = read_stl(&bytes).map_err(|source| Failure::input(name, source))?;
+    let factors = place.shrinkage.unwrap_or_default().factors();
+    let mesh = mesh.stretched(factors).map_err(|source| Failure::input(name, source))?;
     let size = match (place.scale, place.height) {
         (Some(factor), _) => Size::Scale(factor),
-        (_, Some(height)) => Size::Height(height),
+        // The height is that of the fired piece.
+        (_, Some(height)) => Size::Height(height * factors[2]),
         _ => Size::Modelled,
     };
     let bed = profiles.printer.as_ref().and_then(|printer| printer.middle()).map(Ground::At);

@@ -22,6 +22,7 @@ mod progress;
 mod report;
 mod samples_command;
 mod shell_command;
+mod shrinkage;
 
 use std::ffi::OsString;
 use std::process::ExitCode;

@@ -54,7 +54,8 @@ pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
         output::write(path, &json(&plan.strand)?)?;
     }
     if let Some(path) = &args.report {
-        output::write(path, &json(&PlanReport::new(&args.model, settings, &plan, audit.as_ref()))?)?;
+        let asked = (settings, args.place.shrinkage.unwrap_or_default());
+        output::write(path, &json(&PlanReport::new(&args.model, asked, &plan, audit.as_ref()))?)?;
     }
 
     machine::remarks(&profiles, &args.job(), &plan.strand).iter().for_each(|remark| eprintln!("{remark}"));

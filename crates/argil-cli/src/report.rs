@@ -6,6 +6,8 @@ use argil::{LayerReport, Plan, Settings};
 use argil_audit::{ContactCause, Report};
 use serde::Serialize;
 
+use crate::shrinkage::Shrinkage;
+
 /// Version of the JSON layout; it rises when a field changes its meaning or goes.
 const SCHEMA: u32 = 1;
 
@@ -17,6 +19,8 @@ pub(crate) struct PlanReport<'a> {
     version: &'static str,
     model: &'a str,
     settings: Settings,
+    /// Per cent that the model was enlarged to make up for, x, y, z.
+    shrinkage: Shrinkage,
     layers: usize,
     transfers: usize,
     strand_mm: f64,
@@ -41,7 +45,12 @@ struct LossReport {
 }
 
 impl<'a> PlanReport<'a> {
-    pub(crate) fn new(model: &'a str, settings: Settings, plan: &'a Plan, audit: Option<&'a Report>) -> Self {
+    pub(crate) fn new(
+        model: &'a str,
+        (settings, shrinkage): (Settings, Shrinkage),
+        plan: &'a Plan,
+        audit: Option<&'a Report>,
+    ) -> Self {
         let strand = &plan.strand;
         Self {
             schema: SCHEMA,
@@ -49,6 +58,7 @@ impl<'a> PlanReport<'a> {
             version: env!("CARGO_PKG_VERSION"),
             model,
             settings,
+            shrinkage,
             layers: strand.layers().len(),
             // A strand is one polyline: there is no way to hold a transfer in it.
             transfers: 0,

@@ -185,6 +185,28 @@ fn a_model_is_scaled_and_centred() {
 }
 
 #[test]
+fn what_shrinks_is_planned_larger() {
+    let folder = folder("shrinkage");
+    let model = ["--width", "3", "--height", "20", "--shrinkage", "10,10,20"];
+    let plan = ["plan", "sample:columns", "-o", "out.gcode", "--report", "out.json"];
+    ends(&folder, DONE, &[&plan, &model[..]].concat());
+    ends(&folder, DONE, &[&["audit", "out.gcode", "--model", "sample:columns"], &model[..]].concat());
+    // 25 mm of wet clay become 20 mm.
+    let text = fs::read_to_string(folder.join("out.gcode")).unwrap();
+    assert!(text.contains(";LAYER:24\n") && !text.contains(";LAYER:25\n"));
+    let report: Value = serde_json::from_slice(&fs::read(folder.join("out.json")).unwrap()).unwrap();
+    assert_eq!(report["shrinkage"], serde_json::json!([10.0, 10.0, 20.0]));
+    for wrong in ["95", "-1", "1,2", "much"] {
+        fails(
+            &folder,
+            USAGE,
+            &["plan", "sample:columns", "-o", "no.gcode", "--shrinkage", wrong],
+            &["--shrinkage"],
+        );
+    }
+}
+
+#[test]
 fn the_same_bytes_every_time_and_for_any_number_of_threads() {
     let folder = folder("same");
     let run = |name: &str, threads: &str| {

@@ -166,6 +166,30 @@ impl Mesh {
         }
     }
 
+    /// The mesh scaled along each axis by a factor of its own, about the origin: what makes up for clay that shrinks more in height
+    /// than in width.
+    ///
+    /// # Errors
+    /// [`MeshError::Scale`] where a factor is not positive and finite, [`MeshError::NotFinite`] where a coordinate gets too large.
+    ///
+    /// # Complexity
+    /// O(vertices + triangles).
+    ///
+    /// # Example
+    /// ```
+    /// # use argil_mesh::Mesh;
+    /// let mesh = Mesh::new(vec![[0.0; 3], [2.0, 0.0, 0.0], [2.0, 2.0, 2.0]], vec![[0, 1, 2]])?;
+    /// assert_eq!(mesh.stretched([1.0, 1.5, 2.0])?.vertices()[2], [2.0, 3.0, 4.0]);
+    /// # Ok::<(), argil_mesh::MeshError>(())
+    /// ```
+    pub fn stretched(&self, factors: [f64; 3]) -> Result<Self, MeshError> {
+        if let Some(&factor) = factors.iter().find(|factor| !(factor.is_normal() && **factor > 0.0)) {
+            return Err(MeshError::Scale { factor });
+        }
+        let stretch = |vertex: &[f64; 3]| std::array::from_fn(|axis| vertex[axis] * factors[axis]);
+        self.with_vertices(self.vertices.iter().map(stretch).collect())
+    }
+
     /// The mesh scaled and moved onto the bed: its lowest point comes to lie at z = 0.
     ///
     /// # Errors
@@ -185,6 +209,11 @@ impl Mesh {
     /// ```
     pub fn placed(&self, placement: &Placement) -> Result<Self, MeshError> {
         let vertices = placement::place(&self.vertices, &self.bounds(), placement)?;
+        self.with_vertices(vertices)
+    }
+
+    /// The same triangles between vertices that have moved.
+    fn with_vertices(&self, vertices: Vec<[f64; 3]>) -> Result<Self, MeshError> {
         if let Some(triangle) = self.triangles.iter().position(|corners| {
             corners.iter().any(|&k| !vertices[k as usize].iter().all(|value| value.abs() <= LARGEST))
         }) {

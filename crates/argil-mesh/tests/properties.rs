@@ -231,6 +231,7 @@ fn sizes_that_are_no_sizes_are_refused() {
     for factor in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert!(mesh.placed(&Placement { size: Size::Scale(factor), ..Placement::default() }).is_err());
         assert!(mesh.placed(&Placement { size: Size::Height(factor), ..Placement::default() }).is_err());
+        assert!(mesh.stretched([1.0, factor, 1.0]).is_err());
     }
     let huge = Placement { size: Size::Scale(1e300), ..Placement::default() };
     assert!(matches!(mesh.placed(&huge), Err(MeshError::NotFinite { .. })));
