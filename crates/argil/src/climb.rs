@@ -124,10 +124,9 @@ struct Sight {
 
 impl Sight {
     fn of(layer: &PlannedLayer, width: f64) -> Self {
-        let sides = layer.curve.segments().zip(&layer.legs);
-        let walls = sides.filter(|(_, leg)| **leg == Leg::Wall).map(|(side, _)| side);
         let n = layer.legs.len();
-        let on_wall = |k: usize| layer.legs[k % n] == Leg::Wall;
+        let on_wall = |k: usize| layer.legs[k % n] == Leg::Wall && !layer.fill[k % n];
+        let walls = layer.curve.segments().enumerate().filter(|(k, _)| on_wall(*k)).map(|(_, side)| side);
         let roots = (0..n).filter(|&k| on_wall(k) != on_wall(k + n - 1)).map(|k| layer.curve.points()[k]);
         Self { walls: SegmentIndex::new(walls.collect(), width), roots: roots.collect(), width }
     }
@@ -158,6 +157,7 @@ fn opened(layer: &PlannedLayer, start: f64, grid: f64) -> (DVec2, Vec<Move>) {
     let on = curve.locate(start);
     let exact = curve.point_at(start);
     let role = |k: usize| match layer.legs[k % n] {
+        Leg::Wall if layer.fill[k % n] => Role::Fill,
         Leg::Wall => Role::Wall,
         Leg::Support => Role::Support,
         Leg::Joint => Role::Connection,

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use argil_curve::{ClosedCurve, DVec2, SegmentIndex};
 use argil_elastic::{Carrier, Clearance, Path};
-use argil_route::{Cycle, Demand, LayerInput, Leg, Wall};
+use argil_route::{Cycle, Demand, LayerInput, Leg};
 use argil_slice::Layer;
 use argil_support::SupportPoint;
 use argil_taut::SlackPath;
@@ -15,6 +15,7 @@ use crate::clearance::SafeguardField;
 use crate::error::LayerFault;
 use crate::foothold::{Foothold, foothold, hold_start};
 use crate::hold::{Check, Fault};
+use crate::model::ModelLayer;
 use crate::passage::Walled;
 use crate::stages::{Route, Smooth, Support, Tauten};
 use crate::{LayerReport, PlanError, Progress, Settings, StageTimes};
@@ -26,6 +27,8 @@ pub(crate) struct PlannedLayer {
     pub(crate) z: f64,
     pub(crate) curve: ClosedCurve,
     pub(crate) legs: Vec<Leg>,
+    /// Which stretches are fill, and no wall, though they are legs of that kind.
+    pub(crate) fill: Vec<bool>,
     pub(crate) supports: Vec<SupportPoint>,
     /// Arc length of a place where the layer may begin.
     pub(crate) foothold: f64,
@@ -40,7 +43,10 @@ const RETRIES: usize = 3;
 /// What the attempts at a layer share.
 struct Site<'a> {
     layer: &'a Layer,
+    model: ModelLayer,
+    /// The walls by themselves.
     curves: &'a [ClosedCurve],
+    /// All of the model.
     walls: SegmentIndex,
     supports: Vec<SupportPoint>,
     field: SafeguardField,
@@ -55,6 +61,7 @@ struct Attempt {
     report: LayerReport,
     curve: ClosedCurve,
     legs: Vec<Leg>,
+    fill: Vec<bool>,
 }
 
 /// The stages that a descent uses, and what it has learnt so far.
@@ -70,12 +77,13 @@ pub(crate) struct Descent<'a, U, R, E, T> {
 }
 
 impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
-    /// Plans all layers, the top one first; the result is bottom first. `walls` are those of the layers. Layers above the first wall from the top
+    /// Plans all layers, the top one first; the result is bottom first. `walls` are those of the layers, `models` the loops that they
+    /// are part of. Layers above the first wall from the top
     /// have nothing to print; below it, every layer has at least something to hold.
     pub(crate) fn run(
         &mut self,
         layers: &[Layer],
-        walls: &[Vec<ClosedCurve>],
+        (models, walls): (&[ModelLayer], &[Vec<ClosedCurve>]),
         safeguards: &[MultiPolygon<f64>],
         observe: &mut dyn FnMut(Progress),
     ) -> Result<Vec<PlannedLayer>, PlanError> {
@@ -88,7 +96,7 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
                 continue;
             }
             let near = walls[k].first().or(above).map(|curve| curve.points()[0]);
-            let done = self.layer(layer, &walls[k], safeguard, above, start).map_err(|(fault, at)| {
+            let done = self.layer((layer, &models[k], &walls[k]), safeguard, above, start).map_err(|(fault, at)| {
                 PlanError::Layer { layer: layer.index, near: at.or(near).unwrap_or_default(), fault }
             })?;
             let below = k.checked_sub(1).map_or_else(|| SegmentIndex::new(Vec::new(), 1.0), walls_of);
@@ -106,25 +114,25 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
     /// no sound path is found. If that does not help, the plan with the fewest passages stands.
     fn layer(
         &mut self,
-        layer: &Layer,
-        curves: &[ClosedCurve],
+        (layer, model, curves): (&Layer, &ModelLayer, &[ClosedCurve]),
         safeguard: &MultiPolygon<f64>,
         above: Option<&ClosedCurve>,
         start: Option<Foothold>,
     ) -> Result<PlannedLayer, Flaw> {
         let settings = self.settings;
-        let walls = SegmentIndex::of_curves(curves, settings.width);
-        let support = &mut self.support;
+        let mut model = model.clone();
+        let support = &mut *self.support;
         let mut supports = timed(&mut self.times.support, || {
-            above.map_or_else(Vec::new, |above| support.points(above, &walls, settings))
+            above.map_or_else(Vec::new, |above| model.supports(above, support, settings))
         });
+        let walls = model.index(settings.width);
         let guide = start.and_then(|start| hold_start(start, &mut supports, settings));
         let field = SafeguardField::new(safeguard, 2.0 * settings.width);
-        let site = Site { layer, curves, walls, supports, field, above, start, guide };
+        let mut barred = model.roots.clone();
+        let site = Site { layer, model, curves, walls, supports, field, above, start, guide };
 
         let walled = Walled::new(&layer.walled, settings.width);
         let passages = |done: &Attempt| walled.passages(&done.curve);
-        let mut barred = Vec::new();
         let mut best = self.attempt(&site, &barred);
         let mut fewest = best.as_ref().map_or(usize::MAX, |done| passages(done).len());
         let mut flawed = places(&best, passages);
@@ -139,16 +147,15 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
                 (best, fewest) = (next, flawed.len());
             }
         }
-        let Attempt { report, curve, legs } = best?;
-        Ok(PlannedLayer { report, z: layer.print_z, curve, legs, supports: site.supports, foothold: 0.0 })
+        let Attempt { report, curve, legs, fill } = best?;
+        Ok(PlannedLayer { report, z: layer.print_z, curve, legs, fill, supports: site.supports, foothold: 0.0 })
     }
 
     /// Plans a layer with no attachment near the barred places.
     fn attempt(&mut self, site: &Site<'_>, barred: &[DVec2]) -> Result<Attempt, Flaw> {
         let settings = self.settings;
-        let Site { layer, curves, walls: wall_index, supports, field, above, start, guide } = site;
-        let walls: Vec<Wall<'_>> =
-            layer.walls.iter().map(|w| Wall { points: &w.points, parent: w.parent }).collect();
+        let Site { layer, model, curves, walls: wall_index, supports, field, above, start, guide } = site;
+        let walls = model.walls();
         let demands: Vec<Demand> =
             supports.iter().map(|s| Demand { position: s.position, anchors: s.needs.clone() }).collect();
         let above_index = above.map(|c| SegmentIndex::of_curves([c], settings.width));
@@ -202,18 +209,25 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
         for (vertex, demand) in &cycle.carriers {
             debug_assert!(*vertex < cycle.points.len() && *demand < supports.len());
         }
+        let (cycle, fill) = without_repeats(&cycle, &model.fill_of(&cycle, settings.width));
+        let n = fill.len();
+        let fill_length: f64 = (0..n)
+            .filter(|&k| fill[k])
+            .map(|k| cycle.points[k].distance(cycle.points[(k + 1) % n]))
+            .sum();
         let report = LayerReport {
             index: layer.index,
-            walls: walls.len(),
+            walls: layer.walls.len(),
             supports: supports.len(),
             roots: cycle.roots,
-            wall_length: cycle.length_of(Leg::Wall),
+            wall_length: cycle.length_of(Leg::Wall) - fill_length,
+            fill_length,
+            widest_bare: model.widest_bare,
             free_length: cycle.length_of(Leg::Support) + cycle.length_of(Leg::Joint),
             pulled_back,
         };
-        let (points, legs) = without_repeats(&cycle);
-        let curve = ClosedCurve::new(points).map_err(|e| (e.into(), None))?;
-        Ok(Attempt { report, curve, legs })
+        let curve = ClosedCurve::new(cycle.points).map_err(|e| (e.into(), None))?;
+        Ok(Attempt { report, curve, legs: cycle.legs, fill })
     }
 
     /// The smoothed candidate, repaired until it holds the cycle above, and how many vertices that pulled back.
@@ -293,18 +307,19 @@ pub(crate) fn wall_curves(layer: &Layer) -> Result<Vec<ClosedCurve>, PlanError> 
     layer.walls.iter().map(curve).collect()
 }
 
-/// Points and legs without vertices that rounding has put on top of their neighbour.
-fn without_repeats(cycle: &Cycle) -> (Vec<DVec2>, Vec<Leg>) {
+/// A cycle without vertices that rounding has put on top of their neighbour, and what is told of its stretches.
+fn without_repeats(cycle: &Cycle, fill: &[bool]) -> (Cycle, Vec<bool>) {
     let n = cycle.points.len();
-    let (mut points, mut legs) = (Vec::with_capacity(n), Vec::with_capacity(n));
-    for k in 0..n {
-        // The stretch to an equal neighbour has no length and no purpose.
-        if cycle.points[k] != cycle.points[(k + 1) % n] {
-            points.push(cycle.points[k]);
-            legs.push(cycle.legs[k]);
-        }
-    }
-    (points, legs)
+    // The stretch to an equal neighbour has no length and no purpose.
+    let kept: Vec<usize> = (0..n).filter(|&k| cycle.points[k] != cycle.points[(k + 1) % n]).collect();
+    let whole = Cycle {
+        points: kept.iter().map(|&k| cycle.points[k]).collect(),
+        fixed: kept.iter().map(|&k| cycle.fixed[k]).collect(),
+        legs: kept.iter().map(|&k| cycle.legs[k]).collect(),
+        carriers: Vec::new(),
+        roots: cycle.roots,
+    };
+    (whole, kept.iter().map(|&k| fill[k]).collect())
 }
 
 /// Runs a piece of work and adds its time.

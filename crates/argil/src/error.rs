@@ -47,6 +47,9 @@ pub enum LayerFault {
     /// No cycle was found.
     #[error(transparent)]
     Route(#[from] argil_route::RouteError),
+    /// A zone could not be filled.
+    #[error(transparent)]
+    Fill(#[from] argil_fill::FillError),
     /// The cycle could not be smoothed.
     #[error(transparent)]
     Smooth(#[from] argil_elastic::ElasticError),

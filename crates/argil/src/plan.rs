@@ -32,6 +32,12 @@ pub struct LayerReport {
     pub roots: usize,
     /// Length of walls, mm.
     pub wall_length: f64,
+    /// Length of fill, mm: floors, roofs and undersides.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub fill_length: f64,
+    /// Diameter of the widest disc in a filled zone that stays bare, mm; 0 where none is wider than a third of a bead.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub widest_bare: f64,
     /// Length of everything else, mm.
     pub free_length: f64,
     /// Vertices that were pulled back after smoothing, so that the layer above stays held.
@@ -43,6 +49,8 @@ pub struct LayerReport {
 pub struct StageTimes {
     /// Cutting the mesh and insetting walls.
     pub slice: Duration,
+    /// Zones that are filled, and their fill.
+    pub fill: Duration,
     /// The safeguard.
     pub safeguard: Duration,
     /// Detecting and placing support.
@@ -62,9 +70,10 @@ pub struct StageTimes {
 impl StageTimes {
     /// Names and durations in the order of the stages.
     #[must_use]
-    pub fn listed(&self) -> [(&'static str, Duration); 8] {
+    pub fn listed(&self) -> [(&'static str, Duration); 9] {
         [
             ("slice", self.slice),
+            ("fill", self.fill),
             ("safeguard", self.safeguard),
             ("support", self.support),
             ("route", self.route),

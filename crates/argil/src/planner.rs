@@ -5,6 +5,7 @@ use argil_slice::{Layer, outer_walls};
 
 use crate::climb::strand;
 use crate::descent::{Descent, timed, wall_curves};
+use crate::model::model;
 use crate::stages::{
     BestChain, ElasticCurve, Excursions, FewestPoints, PlaneSlices, PulledTaut, Route, Safeguard, Seam,
     Slice, SlopedSafeguard, Smooth, Support, Tauten,
@@ -142,6 +143,7 @@ impl<S: Slice, G: Safeguard, U: Support, R: Route, E: Smooth, T: Tauten, C: Seam
         observe: &mut dyn FnMut(Progress),
     ) -> Result<Plan, PlanError> {
         let walls = layers.iter().map(wall_curves).collect::<Result<Vec<_>, _>>()?;
+        let models = timed(&mut times.fill, || model(layers, settings))?;
         let outer: Vec<_> = layers.iter().map(outer_walls).collect();
         let safeguards = timed(&mut times.safeguard, || self.safeguard.regions(&outer, settings));
         let planned = Descent {
@@ -153,7 +155,7 @@ impl<S: Slice, G: Safeguard, U: Support, R: Route, E: Smooth, T: Tauten, C: Seam
             times: &mut times,
             checked: self.checked,
         }
-        .run(layers, &walls, &safeguards, observe)?;
+        .run(layers, (&models, &walls), &safeguards, observe)?;
         observe(Progress::Descended);
         if planned.is_empty() {
             return Err(PlanError::Nothing);

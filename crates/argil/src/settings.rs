@@ -37,6 +37,12 @@ pub struct Settings {
     pub layer_height: f64,
     /// How many walls lie side by side along every outline.
     pub walls: usize,
+    /// How many of the lowest layers are filled whole.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub floor: usize,
+    /// How many layers close each face that looks up or down and is wider than a bead.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub skin: usize,
     /// What the paste bears.
     pub material: Material,
     /// Step of the output coordinates, mm. Planning rounds to it before the last checks.
@@ -69,11 +75,22 @@ const TENSION: f64 = 0.3;
 /// faster. It saved a twentieth to a tenth on two models of three and cost as much on the third.
 const STIFFNESS: f64 = 0.05;
 
+/// Floors and skins of more layers than this are solid parts, or a mistake.
+const MOST_CLOSED: usize = 1000;
+
 impl Settings {
     /// Defaults for a bead width: a third of it as layer height, one wall, the paper's clay.
     #[must_use]
     pub fn for_width(width: f64) -> Self {
-        Self { width, layer_height: width / 3.0, walls: 1, material: Material::default(), grid: 1e-4 }
+        Self {
+            width,
+            layer_height: width / 3.0,
+            walls: 1,
+            floor: 0,
+            skin: 0,
+            material: Material::default(),
+            grid: 1e-4,
+        }
     }
 
     /// Refuses values that no plan can be made with.
@@ -105,6 +122,11 @@ impl Settings {
         }
         if self.walls == 0 || self.walls > 100 {
             return Err(PlanError::Setting { name: "walls", value: self.walls as f64, expected: "1 to 100" });
+        }
+        for (name, value) in [("floor", self.floor), ("skin", self.skin)] {
+            if value > MOST_CLOSED {
+                return Err(PlanError::Setting { name, value: value as f64, expected: "at most 1000" });
+            }
         }
         Ok(())
     }

@@ -1,0 +1,26 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # How it is built
+//! 1. *Zones*: what of a layer's outline is open above or below, found by subtracting the neighbours' outlines, and the
+//!    layers behind it; the lowest layers whole.
+//! 2. *Loops*: the room that the walls leave in a zone is filled, and the fill merged with the walls beside it ([`argil_fill`]). A
+//!    zone that touches no wall becomes a loop of its own.
+//! 3. *Bumps*: where the layer above needs a place that lies between two lanes, the nearest lane gives way.
+//!
+//! Lengths are millimetres. The same input gives the same bytes.
+#![forbid(unsafe_code)]
+
+mod bump;
+mod model_loop;
+mod offset;
+mod options;
+mod section;
+mod zone;
+
+pub use argil_curve::DVec2;
+pub use argil_fill::{BareDisc, FillError};
+pub use bump::{Bumps, bumped};
+pub use model_loop::ModelLoop;
+pub use options::SkinOptions;
+pub use section::{Filled, Section};
+pub use zone::zones;

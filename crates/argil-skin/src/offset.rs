@@ -1,0 +1,32 @@
+//! Growing and shrinking regions, on top of `geo`.
+
+use geo::buffer::{BufferStyle, LineJoin};
+use geo::{Area, Buffer};
+use geo_types::MultiPolygon;
+
+/// How far arcs may cut their corners, in w.
+const CHORD: f64 = 0.006;
+
+/// Pieces smaller than this are rounding errors of the polygon kernel, in w².
+const LEAST_AREA: f64 = 1e-4;
+
+/// The region grown by `distance`, or shrunk where it is negative.
+pub(crate) fn grown(region: &MultiPolygon<f64>, distance: f64, width: f64) -> MultiPolygon<f64> {
+    if region.0.is_empty() {
+        return MultiPolygon(Vec::new());
+    }
+    // The kernel's chords span less than twice this angle, so that their sagitta is at most `CHORD` w.
+    let step = (1.0 - (CHORD * width / distance.abs()).min(0.3)).acos();
+    region.buffer_with_style(BufferStyle::new(distance).line_join(LineJoin::Round(step)))
+}
+
+/// The union of the discs of a radius that fit into the region: what is thinner is gone.
+pub(crate) fn opened(region: &MultiPolygon<f64>, radius: f64, width: f64) -> MultiPolygon<f64> {
+    grown(&grown(region, -radius, width), radius, width)
+}
+
+/// The region without pieces that are none.
+pub(crate) fn cleaned(mut region: MultiPolygon<f64>, width: f64) -> MultiPolygon<f64> {
+    region.0.retain(|polygon| polygon.unsigned_area() >= LEAST_AREA * width * width);
+    region
+}
