@@ -98,7 +98,8 @@ pub(crate) fn is_finding(loss: &Loss) -> bool {
 /// The summary at the end of a plan.
 pub(crate) fn summary(plan: &Plan) -> String {
     let strand = &plan.strand;
-    let model = strand.length_of(Role::Wall);
+    let fill = strand.length_of(Role::Fill);
+    let model = strand.length_of(Role::Wall) + fill;
     let rest = strand.length() - model;
     let mut text = format!(
         "{} layers in one strand of {:.2} m, {:.1} cm³ of paste, 0 transfers\n\
@@ -110,6 +111,14 @@ pub(crate) fn summary(plan: &Plan) -> String {
         rest / 1e3,
         rest / model.max(1e-9),
     );
+    if fill > 0.0 {
+        text.push_str(&format!("of the model, fill {:.2} m", fill / 1e3));
+        let bare = plan.layers.iter().map(|layer| layer.widest_bare).fold(0.0, f64::max);
+        if bare > 0.0 {
+            text.push_str(&format!("; widest place in it without a bead {bare:.2} mm"));
+        }
+        text.push('\n');
+    }
     for (kind, count) in losses(plan) {
         text.push_str(&format!("note: {count} places: {kind}\n"));
     }

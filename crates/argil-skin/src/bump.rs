@@ -18,7 +18,7 @@ pub struct Bumps {
 }
 
 /// Half lengths of lane that a bump takes the place of, in w; the first that fits is taken.
-const HALVES: [f64; 3] = [0.5, 0.35, 0.8];
+const HALVES: [f64; 5] = [0.5, 0.35, 0.22, 0.12, 0.8];
 
 /// What a bump keeps from other lanes, in w.
 const APART: f64 = 0.25;
@@ -59,7 +59,7 @@ impl Bump {
 /// ```
 /// use argil_skin::{Bumps, DVec2, ModelLoop, bumped};
 /// let corners = [(0.0, 0.0), (20.0, 0.0), (20.0, 20.0), (0.0, 20.0)];
-/// let lane = ModelLoop { points: corners.map(DVec2::from).to_vec(), fill: vec![true; 4], parent: None };
+/// let lane = ModelLoop { points: corners.map(DVec2::from).to_vec(), fill: true, parent: None };
 /// let mut loops = [lane];
 /// let bumps = Bumps { width: 1.5, within: 0.2, most: 0.6, grid: 1e-4 };
 /// assert_eq!(bumped(&mut loops, &[DVec2::new(10.0, 0.7)], &bumps), 1);
@@ -75,7 +75,8 @@ pub fn bumped(loops: &mut [ModelLoop], needs: &[DVec2], bumps: &Bumps) -> usize 
         loops.iter().map(|one| ClosedCurve::new(one.points.clone()).ok()).collect();
     let sides = || {
         let known = curves.iter().enumerate().filter_map(|(k, curve)| Some((k, curve.as_ref()?)));
-        known.flat_map(|(k, curve)| (0..curve.segment_count()).map(move |side| (k, side, curve.segment(side))))
+        known
+            .flat_map(|(k, curve)| (0..curve.segment_count()).map(move |side| (k, side, curve.segment(side))))
     };
     let lanes = Lanes {
         loops,
@@ -121,9 +122,9 @@ impl Lanes<'_> {
         let Bumps { width, within, most, grid } = *self.bumps;
         let mut best: Option<(f64, usize)> = None;
         self.index.for_each_near(Segment::new(need, need), within + most, |k, side| {
-            let (number, own) = self.owner[k];
+            let (number, _) = self.owner[k];
             let distance = side.distance(need);
-            if self.loops[number].fill[own] && best.is_none_or(|(least, at)| (distance, k) < (least, at)) {
+            if self.loops[number].fill && best.is_none_or(|(least, at)| (distance, k) < (least, at)) {
                 best = Some((distance, k));
             }
         });
@@ -140,7 +141,8 @@ impl Lanes<'_> {
         let tip = on_grid(near.point.lerp(need, share));
         HALVES.iter().find_map(|half| {
             let half = half * width;
-            let [from, to] = [near.s - half, near.s + half].map(|arc| on_grid(curve.point_at(curve.wrapped(arc))));
+            let [from, to] =
+                [near.s - half, near.s + half].map(|arc| on_grid(curve.point_at(curve.wrapped(arc))));
             let bump = Bump { number, arc: near.s, half, corners: [from, tip, to] };
             (tip.distance(need) <= within && self.fits(&bump, curve, made)).then_some(bump)
         })
@@ -149,13 +151,6 @@ impl Lanes<'_> {
     fn fits(&self, bump: &Bump, curve: &ClosedCurve, made: &[Bump]) -> bool {
         let width = self.bumps.width;
         if bump.half > 0.1 * curve.length() {
-            return false;
-        }
-        let n = curve.segment_count();
-        let segment = |arc: f64| curve.locate(curve.wrapped(arc)).segment;
-        let (first, last) = (segment(bump.arc - bump.half), segment(bump.arc + bump.half));
-        let count = (last + n - first) % n + 1;
-        if (0..count).any(|k| !self.loops[bump.number].fill[(first + k) % n]) {
             return false;
         }
         let meets = |other: &&Bump| {
@@ -182,7 +177,9 @@ impl Lanes<'_> {
             if number == bump.number {
                 let begin = curve.arc_of(own) - bump.arc;
                 if self.is_beside(begin, side.length(), bump, curve.length()) {
-                    clear &= rest_of(&side, begin, bump.half, curve.length()).iter().all(|rest| !leg.crosses(rest));
+                    clear &= rest_of(&side, begin, bump.half, curve.length())
+                        .iter()
+                        .all(|rest| !leg.crosses(rest));
                     return;
                 }
             }
@@ -227,16 +224,14 @@ fn rest_of(side: &Segment, begin: f64, half: f64, turn: f64) -> Vec<Segment> {
 fn replaced(one: &ModelLoop, curve: &ClosedCurve, mut bumps: Vec<Bump>) -> ModelLoop {
     let (n, turn) = (curve.segment_count(), curve.length());
     bumps.sort_by(|a, b| a.arc.total_cmp(&b.arc));
-    let mut next = ModelLoop { points: Vec::new(), fill: Vec::new(), parent: one.parent };
-    let mut push = |point: DVec2, fill: bool| match (next.points.last(), next.fill.last_mut()) {
-        (Some(&last), Some(kind)) if last == point => *kind = fill,
-        _ => {
-            next.points.push(point);
-            next.fill.push(fill);
+    let mut points: Vec<DVec2> = Vec::new();
+    let mut push = |point: DVec2| {
+        if points.last() != Some(&point) {
+            points.push(point);
         }
     };
     for (k, bump) in bumps.iter().enumerate() {
-        bump.corners.iter().for_each(|&corner| push(corner, true));
+        bump.corners.iter().for_each(|&corner| push(corner));
         let following = bumps[(k + 1) % bumps.len()];
         let from = bump.arc + bump.half;
         let gap = (following.arc - following.half - from).rem_euclid(turn);
@@ -246,12 +241,11 @@ fn replaced(one: &ModelLoop, curve: &ClosedCurve, mut bumps: Vec<Bump>) -> Model
             if (curve.arc_of(vertex) - from).rem_euclid(turn) >= gap {
                 break;
             }
-            push(curve.points()[vertex], one.fill[vertex]);
+            push(curve.points()[vertex]);
         }
     }
-    while next.points.len() > 1 && next.points.first() == next.points.last() {
-        next.points.pop();
-        next.fill.pop();
+    while points.len() > 1 && points.first() == points.last() {
+        points.pop();
     }
-    next
+    ModelLoop { points, ..*one }
 }

@@ -3,8 +3,7 @@
 //! # How it is built
 //! 1. *Zones*: what of a layer's outline is open above or below, found by subtracting the neighbours' outlines, and the
 //!    layers behind it; the lowest layers whole.
-//! 2. *Loops*: the room that the walls leave in a zone is filled, and the fill merged with the walls beside it ([`argil_fill`]). A
-//!    zone that touches no wall becomes a loop of its own.
+//! 2. *Loops*: the room that the walls leave in a zone is filled ([`argil_fill`]). The fill is a loop inside of the walls as any other.
 //! 3. *Bumps*: where the layer above needs a place that lies between two lanes, the nearest lane gives way.
 //!
 //! Lengths are millimetres. The same input gives the same bytes.

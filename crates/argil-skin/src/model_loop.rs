@@ -2,36 +2,28 @@
 
 use argil_curve::{ClosedCurve, DVec2};
 
-/// A closed path of the model: a wall, a fill, or walls and fill in one.
+/// A closed path of the model.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ModelLoop {
     /// Its vertices in mm, without repeating the first at the end.
     pub points: Vec<DVec2>,
-    /// Whether the stretch from vertex k to vertex k + 1 is fill, and not wall. One entry a vertex.
-    pub fill: Vec<bool>,
+    /// Whether it is fill, and no wall.
+    pub fill: bool,
     /// The smallest loop around it, as an index into the layer's loops.
     pub parent: Option<usize>,
-}
-
-impl ModelLoop {
-    /// A loop that is wall all round.
-    #[must_use]
-    pub fn of_wall(points: Vec<DVec2>, parent: Option<usize>) -> Self {
-        Self { fill: vec![false; points.len()], points, parent }
-    }
 }
 
 /// Finds the parents of loops that neither cross nor touch each other.
 ///
 /// # Complexity
-/// Each loop is tested against the larger ones.
+/// Each loop is tested against all others.
 pub(crate) fn nest(loops: &mut [ModelLoop]) {
     let curves: Vec<Option<ClosedCurve>> =
         loops.iter().map(|l| ClosedCurve::new(l.points.clone()).ok()).collect();
     let area = |k: usize| curves[k].as_ref().map_or(0.0, |curve| curve.signed_area().abs());
     for k in 0..loops.len() {
         let Some(&point) = loops[k].points.first() else { continue };
-        // What is inside is smaller; a fill is a ribbon, and may be smaller than what lies in its bends, but holds none of it.
+        // Loops that hold the same point lie inside each other, so the smallest is the innermost.
         loops[k].parent = (0..loops.len())
             .filter(|&other| other != k && curves[other].as_ref().is_some_and(|curve| curve.contains(point)))
             .min_by(|&a, &b| area(a).total_cmp(&area(b)).then(a.cmp(&b)));
@@ -46,7 +38,8 @@ mod tests {
     fn the_smallest_loop_around_is_the_parent() {
         let square = |half: f64, x: f64| {
             let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
-            ModelLoop::of_wall(corners.map(|c| half * DVec2::from(c) + DVec2::new(x, 0.0)).to_vec(), None)
+            let points = corners.map(|c| half * DVec2::from(c) + DVec2::new(x, 0.0)).to_vec();
+            ModelLoop { points, fill: false, parent: None }
         };
         let mut loops = vec![square(1.0, 0.0), square(9.0, 0.0), square(3.0, 0.0), square(1.0, 20.0)];
         nest(&mut loops);

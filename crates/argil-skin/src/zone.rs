@@ -60,7 +60,9 @@ pub fn zones(
             let down = face(outline, below, width);
             for behind in 0..options.skin {
                 for (face, other) in [(&up, layer.checked_sub(behind)), (&down, layer.checked_add(behind))] {
-                    let Some(other) = other.filter(|&other| other <= top && !face.0.is_empty()) else { continue };
+                    let Some(other) = other.filter(|&other| other <= top && !face.0.is_empty()) else {
+                        continue;
+                    };
                     let part = grown(face, UNDER * width, width).intersection(outlines[other]);
                     zones[other] = zones[other].union(&part);
                 }

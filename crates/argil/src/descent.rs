@@ -128,7 +128,7 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
         let walls = model.index(settings.width);
         let guide = start.and_then(|start| hold_start(start, &mut supports, settings));
         let field = SafeguardField::new(safeguard, 2.0 * settings.width);
-        let mut barred = model.roots.clone();
+        let mut barred = Vec::new();
         let site = Site { layer, model, curves, walls, supports, field, above, start, guide };
 
         let walled = Walled::new(&layer.walled, settings.width);

@@ -1,7 +1,7 @@
 //! What of each layer is the model: its walls, and the fill that closes floors, roofs and undersides.
 
 use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex};
-use argil_fill::{FillOptions, Ring};
+use argil_fill::FillOptions;
 use argil_route::{Cycle, Leg, Wall};
 use argil_skin::{Bumps, ModelLoop, Section, SkinOptions, bumped, zones};
 use argil_slice::Layer;
@@ -20,8 +20,6 @@ const BUMP: f64 = 0.45;
 #[derive(Clone, Debug)]
 pub(crate) struct ModelLayer {
     pub(crate) loops: Vec<ModelLoop>,
-    /// Places on walls where no strand may be attached, since fill leaves them on the other side.
-    pub(crate) roots: Vec<DVec2>,
     /// Widest disc of a filled zone that stays bare, mm.
     pub(crate) widest_bare: f64,
 }
@@ -32,8 +30,11 @@ pub(crate) struct ModelLayer {
 /// [`PlanError::Layer`] where a zone cannot be filled.
 pub(crate) fn model(layers: &[Layer], settings: &Settings) -> Result<Vec<ModelLayer>, PlanError> {
     let walls_only = |layer: &Layer| ModelLayer {
-        loops: layer.walls.iter().map(|w| ModelLoop::of_wall(w.points.clone(), w.parent)).collect(),
-        roots: Vec::new(),
+        loops: layer
+            .walls
+            .iter()
+            .map(|wall| ModelLoop { points: wall.points.clone(), fill: false, parent: wall.parent })
+            .collect(),
         widest_bare: 0.0,
     };
     if settings.floor == 0 && settings.skin == 0 {
@@ -64,12 +65,11 @@ pub(crate) fn model(layers: &[Layer], settings: &Settings) -> Result<Vec<ModelLa
             filled.push(walls_only(layer));
             continue;
         }
-        let walls: Vec<Ring> =
-            layer.walls.iter().map(|w| Ring { points: w.points.clone(), wall: Some(w.wall) }).collect();
+        let walls: Vec<Vec<DVec2>> = layer.walls.iter().map(|wall| wall.points.clone()).collect();
         let section = Section { outline: &layer.outline, walls: &walls };
         let made = section.filled(zone, &options, &avoid).map_err(|error| fault(layer, error))?;
         let widest_bare = made.bare.iter().map(|disc| disc.diameter).fold(0.0, f64::max);
-        filled.push(ModelLayer { loops: made.loops, roots: made.roots, widest_bare });
+        filled.push(ModelLayer { loops: made.loops, widest_bare });
         avoid = made.joints;
     }
     Ok(filled)
@@ -94,7 +94,7 @@ impl ModelLayer {
         settings: &Settings,
     ) -> Vec<SupportPoint> {
         let mut found = support.points(above, &self.index(settings.width), settings);
-        if !self.loops.iter().any(|one| one.fill.contains(&true)) {
+        if !self.loops.iter().any(|one| one.fill) {
             return found;
         }
         let bumps = Bumps {
@@ -116,7 +116,7 @@ impl ModelLayer {
     /// Which stretches of a cycle through these loops are fill.
     pub(crate) fn fill_of(&self, cycle: &Cycle, width: f64) -> Vec<bool> {
         let n = cycle.points.len();
-        if !self.loops.iter().any(|one| one.fill.contains(&true)) {
+        if !self.loops.iter().any(|one| one.fill) {
             return vec![false; n];
         }
         let (sides, fill): (Vec<Segment>, Vec<bool>) = sides(&self.loops).unzip();
@@ -134,6 +134,6 @@ fn sides(loops: &[ModelLoop]) -> impl Iterator<Item = (Segment, bool)> + '_ {
     loops.iter().flat_map(|one| {
         let points = &one.points;
         (0..points.len())
-            .map(move |k| (Segment::new(points[k], points[(k + 1) % points.len()]), one.fill[k]))
+            .map(move |k| (Segment::new(points[k], points[(k + 1) % points.len()]), one.fill))
     })
 }
