@@ -63,7 +63,7 @@ impl Bump {
 /// let mut loops = [lane];
 /// let bumps = Bumps { width: 1.5, within: 0.2, most: 0.6, grid: 1e-4 };
 /// assert_eq!(bumped(&mut loops, &[DVec2::new(10.0, 0.7)], &bumps), 1);
-/// let tip = loops[0].points[2];
+/// let tip = loops[0].points[1];
 /// assert!(tip.distance(DVec2::new(10.0, 0.7)) < 0.2);
 /// ```
 pub fn bumped(loops: &mut [ModelLoop], needs: &[DVec2], bumps: &Bumps) -> usize {

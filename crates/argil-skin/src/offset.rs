@@ -1,11 +1,14 @@
 //! Growing and shrinking regions, on top of `geo`.
 
 use geo::buffer::{BufferStyle, LineJoin};
-use geo::{Area, Buffer};
-use geo_types::MultiPolygon;
+use geo::{Area, Buffer, Simplify};
+use geo_types::{LineString, MultiPolygon, Polygon};
 
 /// How far arcs may cut their corners, in w.
 const CHORD: f64 = 0.006;
+
+/// What a ring may be simplified by, in w.
+const PLAINER: f64 = 0.004;
 
 /// Pieces smaller than this are rounding errors of the polygon kernel, in w².
 const LEAST_AREA: f64 = 1e-4;
@@ -17,7 +20,18 @@ pub(crate) fn grown(region: &MultiPolygon<f64>, distance: f64, width: f64) -> Mu
     }
     // The kernel's chords span less than twice this angle, so that their sagitta is at most `CHORD` w.
     let step = (1.0 - (CHORD * width / distance.abs()).min(0.3)).acos();
-    region.buffer_with_style(BufferStyle::new(distance).line_join(LineJoin::Round(step)))
+    plainer(&region.buffer_with_style(BufferStyle::new(distance).line_join(LineJoin::Round(step))), width)
+}
+
+/// The region without vertices that change nothing: the kernel's time grows with those that lie within an offset of each other.
+pub(crate) fn plainer(region: &MultiPolygon<f64>, width: f64) -> MultiPolygon<f64> {
+    let plain = |ring: &LineString<f64>| {
+        let simple = ring.simplify(PLAINER * width);
+        if simple.0.len() < 4 { ring.clone() } else { simple }
+    };
+    let polygon =
+        |p: &Polygon<f64>| Polygon::new(plain(p.exterior()), p.interiors().iter().map(plain).collect());
+    MultiPolygon(region.iter().map(polygon).collect())
 }
 
 /// The union of the discs of a radius that fit into the region: what is thinner is gone.

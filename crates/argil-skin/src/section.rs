@@ -6,11 +6,16 @@ use geo::BooleanOps;
 use geo_types::MultiPolygon;
 
 use crate::model_loop::nest;
-use crate::offset::{cleaned, grown, opened};
+use crate::offset::{cleaned, grown, opened, plainer};
 use crate::{ModelLoop, SkinOptions};
 
-/// Radius of the disc that fits everywhere into a region that is filled, in w. Narrower parts would hold no bead.
-const SLIGHT: f64 = 0.3;
+/// Radius of the disc that fits everywhere into what is filled, in w: narrower gaps stay open.
+const SLIGHT: f64 = 0.25;
+
+/// Where a disc of this radius does not fit, in w, no bead would: what is to be filled there is widened on either side, so
+/// that a loop there and back has room. The beads beside it lie half as far away as they would.
+const NARROW: f64 = 0.55;
+const WIDENED: f64 = 0.3;
 
 /// One layer of the model.
 #[derive(Clone, Copy, Debug)]
@@ -88,11 +93,11 @@ impl Section<'_> {
         if zone.0.is_empty() {
             return MultiPolygon(Vec::new());
         }
-        let inside = if walls == 0 {
-            self.outline.clone()
-        } else {
-            grown(self.outline, -(walls as f64) * width, width)
-        };
-        opened(&cleaned(inside.intersection(zone), width), SLIGHT * width, width)
+        let outline = plainer(self.outline, width);
+        let inside = if walls == 0 { outline } else { grown(&outline, -(walls as f64) * width, width) };
+        let room = opened(&cleaned(inside.intersection(zone), width), SLIGHT * width, width);
+        let narrow = room.difference(&opened(&room, NARROW * width, width));
+        let narrow = opened(&cleaned(narrow, width), SLIGHT * width, width);
+        if narrow.0.is_empty() { room } else { room.union(&grown(&narrow, WIDENED * width, width)) }
     }
 }

@@ -5,7 +5,7 @@ use geo::BooleanOps;
 use geo_types::MultiPolygon;
 
 use crate::SkinOptions;
-use crate::offset::{cleaned, grown, opened};
+use crate::offset::{cleaned, grown, opened, plainer};
 
 /// A face that juts out by less than this beyond its neighbour is covered by the bead of the wall, in w.
 const FACE: f64 = 1.0;
@@ -50,6 +50,9 @@ pub fn zones(
 ) -> Result<Vec<MultiPolygon<f64>>, FillError> {
     let width = options.width()?;
     let none = MultiPolygon(Vec::new());
+    let whole = outlines;
+    let plain: Vec<MultiPolygon<f64>> = whole.iter().map(|outline| plainer(outline, width)).collect();
+    let outlines: Vec<&MultiPolygon<f64>> = plain.iter().collect();
     let mut zones = vec![none.clone(); outlines.len()];
     let top = outlines.len().saturating_sub(1);
     if options.skin > 0 {
@@ -69,8 +72,12 @@ pub fn zones(
             }
         }
     }
-    for (zone, outline) in zones.iter_mut().zip(outlines).take(options.floor) {
-        *zone = (*outline).clone();
+    for (layer, (zone, outline)) in zones.iter_mut().zip(whole).enumerate() {
+        if layer < options.floor {
+            *zone = (*outline).clone();
+        } else if !zone.0.is_empty() {
+            *zone = zone.intersection(*outline);
+        }
     }
     Ok(zones.into_iter().map(|zone| cleaned(zone, width)).collect())
 }
