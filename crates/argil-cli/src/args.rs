@@ -93,12 +93,6 @@ pub(crate) struct BeadArgs {
     /// Walls side by side along every outline.
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(crate) walls: usize,
-    /// Fill the N lowest layers whole.
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    pub(crate) floor: usize,
-    /// Close every face that looks up or down and is wider than a bead, with N layers.
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    pub(crate) skin: usize,
     /// How far a bead may lie beside the one below, in bead widths [default: the material's, or 0.3].
     #[arg(long, value_name = "RATIO", allow_negative_numbers = true)]
     pub(crate) across: Option<f64>,
@@ -170,6 +164,12 @@ pub(crate) struct PlanArgs {
     pub(crate) png: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) bead: BeadArgs,
+    /// Fill the N lowest layers whole.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) floor: usize,
+    /// Close every face that looks up or down and is wider than a bead, with N layers.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) skin: usize,
     #[command(flatten)]
     pub(crate) place: PlaceArgs,
     #[command(flatten)]
@@ -246,8 +246,6 @@ impl CalibrateArgs {
             width: self.width,
             layer_height: self.layer_height,
             walls: 1,
-            floor: 0,
-            skin: 0,
             across: None,
             along: None,
         }

@@ -45,7 +45,6 @@ pub(crate) fn settings(bead: &BeadArgs, profiles: &Profiles) -> Result<Settings,
     let (width, height) = known.map_or((bead.width, None), |(width, height)| (Some(width), height));
     let mut settings = width.map_or_else(Settings::default, Settings::for_width);
     settings.walls = bead.walls;
-    (settings.floor, settings.skin) = (bead.floor, bead.skin);
     if let Some(height) = bead.layer_height.or(height) {
         settings.layer_height = height;
     }

@@ -96,9 +96,13 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
                 continue;
             }
             let near = walls[k].first().or(above).map(|curve| curve.points()[0]);
-            let done = self.layer((layer, &models[k], &walls[k]), safeguard, above, start).map_err(|(fault, at)| {
-                PlanError::Layer { layer: layer.index, near: at.or(near).unwrap_or_default(), fault }
-            })?;
+            let done = self.layer((layer, &models[k], &walls[k]), safeguard, above, start).map_err(
+                |(fault, at)| PlanError::Layer {
+                    layer: layer.index,
+                    near: at.or(near).unwrap_or_default(),
+                    fault,
+                },
+            )?;
             let below = k.checked_sub(1).map_or_else(|| SegmentIndex::new(Vec::new(), 1.0), walls_of);
             let from = above.zip(start);
             let place = foothold(&done.curve, from, [&walls_of(k), &below], &self.settings.seaming());
@@ -148,7 +152,15 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
             }
         }
         let Attempt { report, curve, legs, fill } = best?;
-        Ok(PlannedLayer { report, z: layer.print_z, curve, legs, fill, supports: site.supports, foothold: 0.0 })
+        Ok(PlannedLayer {
+            report,
+            z: layer.print_z,
+            curve,
+            legs,
+            fill,
+            supports: site.supports,
+            foothold: 0.0,
+        })
     }
 
     /// Plans a layer with no attachment near the barred places.
@@ -211,10 +223,8 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
         }
         let (cycle, fill) = without_repeats(&cycle, &model.fill_of(&cycle, settings.width));
         let n = fill.len();
-        let fill_length: f64 = (0..n)
-            .filter(|&k| fill[k])
-            .map(|k| cycle.points[k].distance(cycle.points[(k + 1) % n]))
-            .sum();
+        let fill_length: f64 =
+            (0..n).filter(|&k| fill[k]).map(|k| cycle.points[k].distance(cycle.points[(k + 1) % n])).sum();
         let report = LayerReport {
             index: layer.index,
             walls: layer.walls.len(),

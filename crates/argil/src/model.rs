@@ -133,7 +133,6 @@ impl ModelLayer {
 fn sides(loops: &[ModelLoop]) -> impl Iterator<Item = (Segment, bool)> + '_ {
     loops.iter().flat_map(|one| {
         let points = &one.points;
-        (0..points.len())
-            .map(move |k| (Segment::new(points[k], points[(k + 1) % points.len()]), one.fill))
+        (0..points.len()).map(move |k| (Segment::new(points[k], points[(k + 1) % points.len()]), one.fill))
     })
 }

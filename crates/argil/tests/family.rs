@@ -65,6 +65,20 @@ fn assert_sound(first: u64) {
     assert!(mended.is_empty(), "sound now, to be struck from the list: {mended:?}");
 }
 
+/// Seeds that are drawn with floors and skins as well.
+const CLOSED: Range<u64> = 300..312;
+
+#[test]
+fn bodies_with_floor_and_skin_are_sound() {
+    let mut found = Vec::new();
+    for seed in CLOSED {
+        let (kind, body, settings) = case_of(seed);
+        let settings = Settings { floor: 2, skin: 1 + seed as usize % 2, ..settings };
+        found.extend(fault(&body, &settings).map(|fault| format!("seed {seed} ({kind}): {fault}")));
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
 #[test]
 fn bodies_by_lot_are_sound() {
     assert_sound(0);
