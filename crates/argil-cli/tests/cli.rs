@@ -185,6 +185,25 @@ fn a_model_is_scaled_and_centred() {
 }
 
 #[test]
+fn floors_and_skins_are_fill_of_the_same_strand() {
+    let folder = folder("skin");
+    let closed = ["--floor", "2", "--skin", "1", "--report", "out.json"];
+    let output = ends(&folder, DONE, &[&["plan", "-o", "out.gcode"], &QUICK[..], &closed].concat());
+    let said = stderr(&output);
+    assert!(said.contains("of the model, fill") && said.contains("audit: sound"), "{said}");
+    let report: Value = serde_json::from_slice(&fs::read(folder.join("out.json")).unwrap()).unwrap();
+    let fill = report["fill_mm"].as_f64().unwrap();
+    let audited = report["audit"]["figures"]["fill_mm"].as_f64().unwrap();
+    assert!(fill > 0.0 && (fill - audited).abs() < 0.05 * fill, "{fill} mm of fill, {audited} mm audited");
+    let layers = report["per_layer"].as_array().unwrap();
+    let filled = layers.iter().filter(|layer| layer["fill_length"].as_f64().unwrap() > 0.0).count();
+    assert!((3..layers.len()).contains(&filled), "{filled} layers");
+    assert!(fs::read_to_string(folder.join("out.gcode")).unwrap().contains(";TYPE:Solid infill\n"));
+    fails(&folder, BAD_INPUT, &["plan", "sample:columns", "-o", "no.gcode", "--skin", "1001"], &["skin"]);
+    fails(&folder, USAGE, &["plan", "sample:columns", "-o", "no.gcode", "--floor", "some"], &["--floor"]);
+}
+
+#[test]
 fn what_shrinks_is_planned_larger() {
     let folder = folder("shrinkage");
     let model = ["--width", "3", "--height", "20", "--shrinkage", "10,10,20"];

@@ -159,7 +159,7 @@ proptest! {
                 }
             }
             // Nothing of a zone wider than two beads is farther from a bead than the widest bare disc that is listed.
-            let wide = inset(&inset(zone, 1.0 * WIDTH), -1.0 * WIDTH);
+            let wide = inset(&inset(zone, WIDTH), -WIDTH);
             let solid = inset(outline, 0.5 * WIDTH);
             for place in lattice(&wide.intersection(&solid)) {
                 let beside = strand.distance(place);
