@@ -37,6 +37,7 @@ mod plan;
 mod planner;
 mod settings;
 pub mod stages;
+mod starts;
 
 pub use argil_curve as curve;
 pub use argil_elastic as elastic;
