@@ -25,13 +25,18 @@ pub(crate) fn preview_page(
         findings.chain(report.contacts.iter().map(contact))
     });
     let style = PageStyle {
-        title: format!("{} – argil", model.rsplit(['/', '\\']).next().unwrap_or(model)),
+        title: format!("{} – argil", short_name(model)),
         facts: facts(settings, plan, audit),
         marks: found.chain(plan.losses.iter().map(loss)).collect(),
         speeds: [gcode.first_layer_feed, gcode.feed],
         ..PageStyle::default()
     };
     page_html(&plan.strand, &style)
+}
+
+/// A model without the folders that it is in.
+pub(crate) fn short_name(model: &str) -> &str {
+    model.rsplit(['/', '\\']).next().unwrap_or(model)
 }
 
 fn facts(settings: &Settings, plan: &Plan, audit: Option<&Report>) -> Vec<(String, String)> {
