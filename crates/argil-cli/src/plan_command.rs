@@ -29,7 +29,8 @@ pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
     let profiles = Profiles::of(&args.bead)?;
     let settings = input::settings(&args.bead, &profiles)?;
     let mut written = machine::gcode_settings(&args.job(), &settings, &profiles)?;
-    let files = [&args.report, &args.strand, &args.png, &args.preview, &args.cleaning, &args.poses].map(Option::as_ref);
+    let files = [&args.report, &args.strand, &args.png, &args.preview, &args.cleaning, &args.poses]
+        .map(Option::as_ref);
     files.into_iter().chain([Some(&args.output)]).flatten().try_for_each(|path| output::check(path))?;
     let mesh = input::model(&args.model, args.place, &profiles)?;
     let plan =

@@ -55,7 +55,8 @@ fn e_is_the_filament_that_the_note_names() {
     for (name, text) in printers() {
         let printer = Printer::from_toml(text).unwrap();
         let Some((_, Some(note))) = printer.mm3_per_e.origin() else { continue };
-        let Some(diameter) = note.strip_prefix("mm of a filament of ").and_then(|rest| rest.strip_suffix(" mm"))
+        let Some(diameter) =
+            note.strip_prefix("mm of a filament of ").and_then(|rest| rest.strip_suffix(" mm"))
         else {
             continue;
         };
