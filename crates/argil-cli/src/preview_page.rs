@@ -105,6 +105,7 @@ fn loss(loss: &Loss) -> PageMark {
     let (kind, measure, unit) = match *loss {
         Loss::OpenOutline { length, .. } => ("open outline left out", length, "mm"),
         Loss::Thin { area, .. } => ("thinner than a bead", area, "mm²"),
+        Loss::Narrow { length, .. } => ("part thinner than a bead", length, "mm"),
         Loss::Vanished { area, .. } => ("too small to print", area, "mm²"),
         Loss::Branch { area, .. } => ("branch thinner than a bead", area, "mm²"),
         Loss::Unsound { length, .. } => ("wall left out", length, "mm"),
