@@ -15,6 +15,9 @@ const VISIBLE: f64 = 0.13;
 /// wall would make the strand pass straight through it, with less than a bead along the wall between. The second is tried
 /// where the first leaves no chain.
 const ROOT_REACH: [f64; 2] = [1.1, 0.6];
+/// Most prints have a chain of steps this part as long as they may be. A long step sags, so it is tried first at both
+/// distances from roots.
+const SHORT: f64 = 0.5;
 /// What a start right at a root costs where neither does, in w²; less with the square of the distance.
 const AT_ROOT: f64 = 4.0;
 
@@ -33,18 +36,22 @@ pub(crate) fn strand(
     let cycles: Vec<ClosedCurve> = layers.iter().map(|layer| layer.curve.clone()).collect();
     let sights: Vec<Sight> = layers.iter().map(|layer| Sight::of(layer, width)).collect();
     let footholds: Vec<f64> = layers.iter().map(|layer| layer.foothold).collect();
-    let mut chain = |beside_root: &dyn Fn(f64) -> f64| {
+    let longest = settings.seaming().reach;
+    let mut chain = |reach: f64, beside_root: &dyn Fn(f64) -> f64| {
         let cost = |k: usize, p: DVec2| {
             let visible = |from_root: f64| (VISIBLE + beside_root(from_root)) * width * width;
             sights[k].on_wall(p).map_or(0.0, visible)
         };
-        seam.starts(&cycles, &footholds, settings, &cost)
+        seam.starts(&cycles, &footholds, reach, settings, &cost)
     };
     let [far, near] = ROOT_REACH;
     let beyond = |reach: f64| move |from_root: f64| if from_root < reach { f64::INFINITY } else { 0.0 };
-    let starts = chain(&beyond(far))
-        .or_else(|_| chain(&beyond(near)))
-        .or_else(|_| chain(&|from_root: f64| AT_ROOT * (1.0 - from_root / far).max(0.0).powi(2)))?;
+    let graded = |from_root: f64| AT_ROOT * (1.0 - from_root / far).max(0.0).powi(2);
+    let starts = chain(SHORT * longest, &beyond(far))
+        .or_else(|_| chain(SHORT * longest, &beyond(near)))
+        .or_else(|_| chain(longest, &beyond(far)))
+        .or_else(|_| chain(longest, &beyond(near)))
+        .or_else(|_| chain(longest, &graded))?;
     let mut strand_layers = Vec::with_capacity(layers.len());
     let mut first: Option<DVec2> = None;
     let mut below = None;

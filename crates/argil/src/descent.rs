@@ -126,8 +126,8 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
         let passages = |done: &Attempt| walled.passages(&done.curve);
         let mut barred = Vec::new();
         let mut best = self.attempt(&site, &barred);
-        let mut fewest = best.as_ref().map_or(usize::MAX, |done| passages(done).len());
         let mut flawed = places(&best, passages);
+        let mut fewest = if best.is_ok() { flawed.len() } else { usize::MAX };
         for _ in 0..RETRIES {
             if flawed.is_empty() || !self.checked {
                 break;
