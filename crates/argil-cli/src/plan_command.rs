@@ -17,7 +17,7 @@ use crate::cleaning_page::cleaning_page;
 use crate::failure::{FINDINGS, Failure};
 use crate::preview_page::preview_page;
 use crate::profiles::Profiles;
-use crate::progress::PlanBar;
+use crate::progress::{PlanBar, Waiting};
 use crate::report::{PlanReport, cleaning, is_finding, summary};
 use crate::{input, machine, output};
 
@@ -142,6 +142,7 @@ fn audited_and_drawn(
     mesh: &Mesh,
     settings: &Settings,
 ) -> Result<Option<Report>, Failure> {
+    let _waiting = Waiting::new(if args.no_audit { "drawing" } else { "auditing" }, args.quiet);
     let audit = || (!args.no_audit).then(|| measure(gcode, mesh, settings)).transpose();
     let (report, drawn) = if args.threads > 1 {
         thread::scope(|scope| {
