@@ -36,6 +36,7 @@ mod plan;
 mod planner;
 mod settings;
 pub mod stages;
+mod starts;
 
 pub use argil_curve as curve;
 pub use argil_elastic as elastic;
