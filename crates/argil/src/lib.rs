@@ -65,6 +65,8 @@ mod pages {
     struct Crate;
     #[doc = include_str!("../../../README.md")]
     struct Workspace;
+    #[doc = include_str!("../../../docs/SLICERS.md")]
+    struct Slicers;
     #[doc = include_str!("../../argil-route/README.md")]
     struct Route;
 }
