@@ -11,6 +11,9 @@ pub struct SkinOptions {
     pub floor: usize,
     /// How many layers close each face that looks up or down: the layer that has the face, and those behind it.
     pub skin: usize,
+    /// Whether gaps between walls that are narrower than a bead, and wider than half of one, get a lane there and back. It lies partly on
+    /// the walls' beads: floors that are to hold water want that, roofs can do without.
+    pub tight: bool,
     /// How zones are filled. Its `walls` is not read, since the walls are there already.
     pub fill: FillOptions,
 }
@@ -19,7 +22,13 @@ impl SkinOptions {
     /// Nothing closed, one wall, a bead of this width in mm.
     #[must_use]
     pub fn for_width(width: f64) -> Self {
-        Self { walls: 1, floor: 0, skin: 0, fill: FillOptions { walls: 0, ..FillOptions::for_width(width) } }
+        Self {
+            walls: 1,
+            floor: 0,
+            skin: 0,
+            tight: false,
+            fill: FillOptions { walls: 0, ..FillOptions::for_width(width) },
+        }
     }
 
     /// Refuses a width that no zone can be found with; the other options are checked where a zone is filled.

@@ -12,10 +12,14 @@ use crate::{ModelLoop, SkinOptions};
 /// Radius of the disc that fits everywhere into what is filled, in w: narrower gaps stay open.
 const SLIGHT: f64 = 0.25;
 
-/// Where a disc of this radius does not fit, in w, no bead would: what is to be filled there is widened on either side, so
-/// that a loop there and back has room. The beads beside it lie half as far away as they would.
+/// Where a disc of this radius does not fit, in w, no bead would.
 const NARROW: f64 = 0.55;
-const WIDENED: f64 = 0.3;
+
+/// What is so narrow is widened by this in under what covers it, in w, so that a loop there and back has room: that edge is hidden.
+const UNDER: f64 = 0.6;
+
+/// Between walls it is widened by this on either side, in w, where that is asked for. The beads beside it lie half as far away as they would.
+const BETWEEN: f64 = 0.3;
 
 /// One layer of the model.
 #[derive(Clone, Copy, Debug)]
@@ -72,7 +76,7 @@ impl Section<'_> {
         let width = options.width()?;
         let wall = |points: &Vec<DVec2>| ModelLoop { points: points.clone(), fill: false, parent: None };
         let mut filled = Filled { loops: self.walls.iter().map(wall).collect(), ..Filled::default() };
-        let room = self.room(zone, options.walls, width);
+        let room = self.room(zone, options, width);
         if !room.0.is_empty() {
             let made = fill(&room, &[], &FillOptions { walls: 0, ..options.fill }, avoid)?;
             filled.joints = made.joints.iter().map(argil_fill::Joint::middle).collect();
@@ -89,15 +93,26 @@ impl Section<'_> {
     }
 
     /// What of a zone the walls leave to be filled.
-    fn room(&self, zone: &MultiPolygon<f64>, walls: usize, width: f64) -> MultiPolygon<f64> {
+    fn room(&self, zone: &MultiPolygon<f64>, options: &SkinOptions, width: f64) -> MultiPolygon<f64> {
         if zone.0.is_empty() {
             return MultiPolygon(Vec::new());
         }
         let outline = plainer(self.outline, width);
-        let inside = if walls == 0 { outline } else { grown(&outline, -(walls as f64) * width, width) };
+        let walls = options.walls as f64;
+        let inside = if options.walls == 0 { outline } else { grown(&outline, -walls * width, width) };
         let room = opened(&cleaned(inside.intersection(zone), width), SLIGHT * width, width);
-        let narrow = room.difference(&opened(&room, NARROW * width, width));
-        let narrow = opened(&cleaned(narrow, width), SLIGHT * width, width);
-        if narrow.0.is_empty() { room } else { room.union(&grown(&narrow, WIDENED * width, width)) }
+        let under = grown(&narrow(&room, width), UNDER * width, width).intersection(&inside);
+        let room = if under.0.is_empty() { room } else { room.union(&under) };
+        let between = narrow(&room, width);
+        if !options.tight || between.0.is_empty() {
+            return room;
+        }
+        room.union(&grown(&between, BETWEEN * width, width))
     }
+}
+
+/// The parts of a room that are too narrow for a bead, but for slivers.
+fn narrow(room: &MultiPolygon<f64>, width: f64) -> MultiPolygon<f64> {
+    let narrow = room.difference(&opened(room, NARROW * width, width));
+    opened(&cleaned(narrow, width), SLIGHT * width, width)
 }

@@ -59,11 +59,14 @@ fn stack() -> impl Strategy<Value = Vec<MultiPolygon<f64>>> {
     prop::collection::vec(layer, 1..6)
 }
 
+/// A layer whose narrow gaps are closed, too.
 fn filled(outline: &MultiPolygon<f64>, zone: &MultiPolygon<f64>) -> Filled {
+    with(outline, zone, &SkinOptions { tight: true, ..options(0, 0) })
+}
+
+fn with(outline: &MultiPolygon<f64>, zone: &MultiPolygon<f64>, options: &SkinOptions) -> Filled {
     let walls = walls(outline);
-    Section { outline, walls: &walls }
-        .filled(zone, &options(0, 0), &[])
-        .expect("a zone of finite size has a fill")
+    Section { outline, walls: &walls }.filled(zone, options, &[]).expect("a zone of finite size has a fill")
 }
 
 fn sides(one: &ModelLoop) -> impl Iterator<Item = Segment> + '_ {
@@ -216,6 +219,17 @@ fn fill_may_lie_anywhere_between_walls() {
     let parents = |fill: bool| made.loops.iter().filter(move |one| one.fill == fill).map(|one| one.parent);
     assert_eq!(parents(true).collect::<Vec<_>>(), [Some(0), Some(0)], "two fills within the outer wall");
     assert_eq!(parents(false).count(), 2);
+}
+
+#[test]
+fn a_gap_between_walls_is_closed_where_that_is_asked_for() {
+    // A ring 2.8 beads wide: between its two walls 0.8 of a bead is left.
+    let outline = disc(14.0, (0.0, 0.0)).difference(&disc(14.0 - 2.8 * WIDTH, (0.0, 0.0)));
+    let fills = |tight: bool| {
+        let made = with(&outline, &outline, &SkinOptions { tight, ..options(0, 0) });
+        made.loops.iter().filter(|one| one.fill).count()
+    };
+    assert_eq!((fills(false), fills(true)), (0, 1));
 }
 
 #[test]

@@ -44,6 +44,7 @@ pub(crate) fn model(layers: &[Layer], settings: &Settings) -> Result<Vec<ModelLa
         walls: settings.walls,
         floor: settings.floor,
         skin: settings.skin,
+        tight: false,
         fill: FillOptions { walls: 0, grid: settings.grid, ..FillOptions::for_width(settings.width) },
     };
     let fault = |layer: &Layer, fault: argil_skin::FillError| PlanError::Layer {
@@ -59,7 +60,7 @@ pub(crate) fn model(layers: &[Layer], settings: &Settings) -> Result<Vec<ModelLa
     };
     let mut avoid = Vec::new();
     let mut filled = Vec::with_capacity(layers.len());
-    for (layer, zone) in layers.iter().zip(&zones) {
+    for (k, (layer, zone)) in layers.iter().zip(&zones).enumerate() {
         if zone.0.is_empty() {
             avoid.clear();
             filled.push(walls_only(layer));
@@ -67,6 +68,7 @@ pub(crate) fn model(layers: &[Layer], settings: &Settings) -> Result<Vec<ModelLa
         }
         let walls: Vec<Vec<DVec2>> = layer.walls.iter().map(|wall| wall.points.clone()).collect();
         let section = Section { outline: &layer.outline, walls: &walls };
+        let options = SkinOptions { tight: k < settings.floor, ..options };
         let made = section.filled(zone, &options, &avoid).map_err(|error| fault(layer, error))?;
         let widest_bare = made.bare.iter().map(|disc| disc.diameter).fold(0.0, f64::max);
         filled.push(ModelLayer { loops: made.loops, widest_bare });
