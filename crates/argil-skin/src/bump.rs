@@ -1,8 +1,9 @@
 //! Lanes of a fill that give way to what the layer above needs.
 
-use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex, self_crossings};
+use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex};
 
 use crate::ModelLoop;
+use crate::apart::is_apart;
 
 /// How lanes give way.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -93,9 +94,8 @@ pub fn bumped(loops: &mut [ModelLoop], needs: &[DVec2], bumps: &Bumps) -> usize 
         .filter_map(|number| {
             let own: Vec<Bump> = made.iter().filter(|bump| bump.number == number).copied().collect();
             let curve = curves[number].as_ref().filter(|_| !own.is_empty())?;
-            let count = own.len();
-            let next = replaced(&loops[number], curve, own);
-            self_crossings(&next.points).is_empty().then_some((number, next, count))
+            let (next, count) = with_bumps(&loops[number], curve, own, bumps.grid);
+            Some((number, next, count))
         })
         .collect();
     changed
@@ -105,6 +105,26 @@ pub fn bumped(loops: &mut [ModelLoop], needs: &[DVec2], bumps: &Bumps) -> usize 
             count
         })
         .sum()
+}
+
+/// The loop with as many of the bumps as leave it apart from itself: all of them, or else one after the other.
+fn with_bumps(one: &ModelLoop, curve: &ClosedCurve, bumps: Vec<Bump>, grid: f64) -> (ModelLoop, usize) {
+    let count = bumps.len();
+    let whole = replaced(one, curve, bumps.clone());
+    if is_apart(&whole.points, grid) {
+        return (whole, count);
+    }
+    let (mut kept, mut next) = (Vec::new(), one.clone());
+    for bump in bumps {
+        kept.push(bump);
+        let tried = replaced(one, curve, kept.clone());
+        if is_apart(&tried.points, grid) {
+            next = tried;
+        } else {
+            kept.pop();
+        }
+    }
+    (next, kept.len())
 }
 
 struct Lanes<'a> {

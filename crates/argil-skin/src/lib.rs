@@ -9,6 +9,7 @@
 //! Lengths are millimetres. The same input gives the same bytes.
 #![forbid(unsafe_code)]
 
+mod apart;
 mod bump;
 mod model_loop;
 mod offset;

@@ -1,10 +1,11 @@
 //! One layer: its walls, and the fill of its zone.
 
 use argil_curve::DVec2;
-use argil_fill::{BareDisc, FillError, FillOptions, fill};
+use argil_fill::{BareDisc, Fill, FillError, FillOptions, Joint, fill};
 use geo::BooleanOps;
 use geo_types::MultiPolygon;
 
+use crate::apart::is_apart;
 use crate::model_loop::nest;
 use crate::offset::{cleaned, grown, opened, plainer};
 use crate::{ModelLoop, SkinOptions};
@@ -20,6 +21,9 @@ const UNDER: f64 = 0.6;
 
 /// Between walls it is widened by this on either side, in w, where that is asked for. The beads beside it lie half as far away as they would.
 const BETWEEN: f64 = 0.3;
+
+/// Where the fill of a room touches itself, corners are left out into which discs of these radii do not fit, in w.
+const LEFT_OUT: [f64; 3] = [0.3, 0.4, 0.5];
 
 /// One layer of the model.
 #[derive(Clone, Copy, Debug)]
@@ -78,8 +82,8 @@ impl Section<'_> {
         let mut filled = Filled { loops: self.walls.iter().map(wall).collect(), ..Filled::default() };
         let room = self.room(zone, options, width);
         if !room.0.is_empty() {
-            let made = fill(&room, &[], &FillOptions { walls: 0, ..options.fill }, avoid)?;
-            filled.joints = made.joints.iter().map(argil_fill::Joint::middle).collect();
+            let made = simple_fill(&room, &options.fill, avoid)?;
+            filled.joints = made.joints.iter().map(Joint::middle).collect();
             filled.bare = made.bare;
             let curves = made.curves.into_iter();
             filled.loops.extend(curves.map(|curve| ModelLoop {
@@ -109,6 +113,24 @@ impl Section<'_> {
         }
         room.union(&grown(&between, BETWEEN * width, width))
     }
+}
+
+/// A fill of which no curve touches itself, if need be of a room whose narrow corners are left out. What is not simple then is left to
+/// whoever joins the loops, and checks them.
+fn simple_fill(room: &MultiPolygon<f64>, options: &FillOptions, avoid: &[DVec2]) -> Result<Fill, FillError> {
+    let options = FillOptions { walls: 0, ..*options };
+    let is_simple = |made: &Fill| made.curves.iter().all(|curve| is_apart(&curve.points, options.grid));
+    let first = fill(room, &[], &options, avoid)?;
+    if is_simple(&first) {
+        return Ok(first);
+    }
+    for radius in LEFT_OUT {
+        let next = fill(&opened(room, radius * options.width, options.width), &[], &options, avoid)?;
+        if is_simple(&next) {
+            return Ok(next);
+        }
+    }
+    Ok(first)
 }
 
 /// The parts of a room that are too narrow for a bead, but for slivers.
