@@ -84,7 +84,11 @@ impl Section<'_> {
         if !room.0.is_empty() {
             let made = simple_fill(&room, &options.fill, avoid)?;
             filled.joints = made.joints.iter().map(Joint::middle).collect();
-            filled.bare = made.bare;
+            // Where no lane fits there is none to measure from, and no disc wider than a lane needs.
+            let widest = if made.curves.is_empty() { 2.0 * NARROW * width } else { f64::INFINITY };
+            let listed = made.bare.into_iter();
+            filled.bare =
+                listed.map(|disc| BareDisc { diameter: disc.diameter.min(widest), ..disc }).collect();
             let curves = made.curves.into_iter();
             filled.loops.extend(curves.map(|curve| ModelLoop {
                 points: curve.points,
