@@ -1,12 +1,12 @@
 //! A region to closed curves of beads.
 
-use argil_curve::{DVec2, Segment, SegmentIndex, self_crossings};
+use argil_curve::{DVec2, Segment, self_crossings};
 use geo::Area;
-use geo_types::{LineString, MultiPolygon, Polygon};
+use geo_types::{Coord, LineString, MultiPolygon, Polygon};
 
 use crate::bare::{BareDisc, scan};
 use crate::curve::FillCurve;
-use crate::detour::mended;
+use crate::detour::{Strand, mended};
 use crate::joint::Joint;
 use crate::merge::merge;
 use crate::offset::{dilation, rings};
@@ -89,21 +89,23 @@ pub fn fill(
     let mut curves = merged.curves;
     let reachable = if own.core.0.is_empty() { 0.0 } else { dilation(&own.core, 0.5 * w, w).unsigned_area() };
     let limit = options.bare * w;
-    let mut found = scan(&own.core, reachable, &strand(&curves, w), w, limit);
+    let sides = sides_of(&own.core);
+    let mut strand = Strand::new(&curves, w, options.grid);
+    let mut found = scan(&sides, reachable, &strand.index, w, limit);
+    let merged_only = (curves.clone(), found.clone());
     let mut detours = 0;
     for _ in 0..options.mending {
-        let before = curves.clone();
-        let made =
-            if found.discs.is_empty() { 0 } else { mended(&mut curves, &found.discs, w, options.grid) };
+        let made = mended(&mut curves, &strand, &found.discs, options.wall_cut * w);
         if made == 0 {
             break;
         }
-        if curves.iter().any(|curve| !self_crossings(&curve.points).is_empty()) {
-            curves = before;
-            break;
-        }
         detours += made;
-        found = scan(&own.core, reachable, &strand(&curves, w), w, limit);
+        strand = Strand::new(&curves, w, options.grid);
+        found = scan(&sides, reachable, &strand.index, w, limit);
+    }
+    if detours > 0 && curves.iter().any(|curve| !self_crossings(&curve.points).is_empty()) {
+        (curves, found) = merged_only;
+        detours = 0;
     }
     let length: f64 = curves.iter().map(FillCurve::length).sum();
     // Rings that were given lie beside the region, and their clay with them.
@@ -132,12 +134,10 @@ fn with_rings_that_are_some(region: &MultiPolygon<f64>) -> MultiPolygon<f64> {
     )
 }
 
-fn strand(curves: &[FillCurve], width: f64) -> SegmentIndex {
-    let sides = curves.iter().flat_map(|curve| {
-        let points = &curve.points;
-        (0..points.len()).map(|k| Segment::new(points[k], points[(k + 1) % points.len()]))
-    });
-    SegmentIndex::new(sides.collect(), width)
+fn sides_of(core: &MultiPolygon<f64>) -> Vec<Segment> {
+    let corner = |c: Coord<f64>| DVec2::new(c.x, c.y);
+    let lines = core.iter().flat_map(rings).flat_map(|ring| ring.lines());
+    lines.map(|line| Segment::new(corner(line.start), corner(line.end))).collect()
 }
 
 fn check_coordinates(region: &MultiPolygon<f64>, options: &FillOptions) -> Result<(), FillError> {

@@ -26,6 +26,7 @@ mod options;
 mod residue;
 mod ring;
 mod rings;
+mod survey;
 mod trace;
 
 pub use argil_curve::DVec2;

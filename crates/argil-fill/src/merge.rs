@@ -1,8 +1,11 @@
 //! Rings into as few closed curves as short joints allow.
 
-use argil_curve::{DVec2, Segment, SegmentIndex};
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
 
-use crate::joint::{Candidate, Cut, Joint, Search, shorter_way};
+use argil_curve::{DVec2, NearestSegment, Segment, SegmentIndex};
+
+use crate::joint::{Candidate, Cut, Joint, Search, Sketch, shorter_way};
 use crate::ring::{Ring, Track};
 use crate::trace::traced;
 use crate::{FillCurve, FillError, FillOptions};
@@ -51,9 +54,12 @@ pub fn merge(rings: &[Ring], options: &FillOptions, avoid: &[DVec2]) -> Result<M
         .map(|(number, ring)| Track::new(number, ring, options.width))
         .collect::<Result<Vec<_>, _>>()?;
     let mut tree = Tree::new(&tracks, options);
-    for tier in TIERS {
+    for (number, tier) in TIERS.into_iter().enumerate() {
         if tree.parts == 1 {
             break;
+        }
+        if number == 1 {
+            tree.find_neighbours();
         }
         tree.grow(tier, avoid);
     }
@@ -91,15 +97,47 @@ const TIERS: [Tier; 5] = [
 /// Legs are looked at without this share of their ends, which lie on the rings that they join.
 const ENDS: f64 = 0.02;
 
+/// A joint that may be the next one: a bound of its score, or the score itself once its legs are drawn.
+struct Open {
+    score: f64,
+    /// Its number, which decides among equals.
+    place: usize,
+    sketch: Sketch,
+    candidate: Option<Candidate>,
+}
+
+impl PartialEq for Open {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Open {}
+
+impl PartialOrd for Open {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Open {
+    /// The lowest score is the greatest.
+    fn cmp(&self, other: &Self) -> Ordering {
+        other.score.total_cmp(&self.score).then(other.place.cmp(&self.place))
+    }
+}
+
 /// The tree of joints as it grows.
 struct Tree<'a> {
     tracks: &'a [Track],
     options: &'a FillOptions,
-    /// Pairs of tracks that may come near each other, the shorter one first.
-    pairs: Vec<[usize; 2]>,
     /// All segments of all tracks, and whose they are.
     index: SegmentIndex,
     owner: Vec<usize>,
+    /// The number of each track's first segment in the index.
+    first_segment: Vec<usize>,
+    /// The tracks within reach of each track, once they are looked for.
+    neighbours: Option<Vec<Vec<usize>>>,
     /// Union-find: towards the root of each track's part.
     root: Vec<usize>,
     parts: usize,
@@ -109,28 +147,27 @@ struct Tree<'a> {
 
 impl<'a> Tree<'a> {
     fn new(tracks: &'a [Track], options: &'a FillOptions) -> Self {
-        let reach = options.reach * options.width;
-        let mut pairs = Vec::new();
-        for a in 0..tracks.len() {
-            for b in a + 1..tracks.len() {
-                if tracks[a].may_reach(&tracks[b], reach) {
-                    let first_longer = tracks[a].curve.length() > tracks[b].curve.length();
-                    pairs.push(if first_longer { [b, a] } else { [a, b] });
-                }
-            }
-        }
         let index = SegmentIndex::of_curves(tracks.iter().map(|track| &track.curve), options.width);
         let owner = tracks
             .iter()
             .enumerate()
             .flat_map(|(k, t)| std::iter::repeat_n(k, t.curve.segment_count()))
             .collect();
+        let mut count = 0;
+        let first_segment = tracks
+            .iter()
+            .map(|track| {
+                count += track.curve.segment_count();
+                count - track.curve.segment_count()
+            })
+            .collect();
         Self {
             tracks,
             options,
-            pairs,
             index,
             owner,
+            first_segment,
+            neighbours: None,
             root: (0..tracks.len()).collect(),
             parts: tracks.len(),
             cuts: vec![Vec::new(); tracks.len()],
@@ -157,17 +194,30 @@ impl<'a> Tree<'a> {
             samples: tier.samples,
             avoid,
         };
-        let mut candidates = Vec::new();
-        for pair in 0..self.pairs.len() {
-            let [a, b] = self.pairs[pair];
-            if self.part(a) != self.part(b) {
-                search.between([a, b], &self.tracks[a], &self.tracks[b], &mut candidates);
+        // The legs of a joint are drawn only when no other can be better.
+        let mut open = BinaryHeap::new();
+        for track in 0..self.tracks.len() {
+            if self.may_be_joined(track) {
+                self.sketch(track, &search, &mut open);
             }
         }
-        candidates.sort_by(|a, b| a.score.total_cmp(&b.score));
-        for candidate in candidates {
-            let [a, b] = candidate.tracks.map(|track| self.part(track));
-            if a == b || !self.fits(&candidate, tier) {
+        while let Some(Open { place, score, sketch, candidate }) = open.pop() {
+            let [a, b] = sketch.tracks.map(|track| self.part(track));
+            if a == b {
+                continue;
+            }
+            let Some(candidate) = candidate else {
+                let [first, second] = sketch.tracks.map(|track| &self.tracks[track]);
+                let drawn = search.candidate(&sketch, first, second);
+                open.extend(drawn.map(|c| Open {
+                    place,
+                    score: c.score.max(score),
+                    sketch,
+                    candidate: Some(c),
+                }));
+                continue;
+            };
+            if !self.fits(&candidate, tier) {
                 continue;
             }
             self.root[a] = b;
@@ -176,6 +226,81 @@ impl<'a> Tree<'a> {
                 self.cuts[track].push(cut);
             }
             self.taken.push(candidate);
+        }
+    }
+
+    /// Looks for the tracks within reach of each other, so that what is joined already is not tried everywhere.
+    fn find_neighbours(&mut self) {
+        let reach = self.options.reach * self.options.width;
+        let mut neighbours = vec![Vec::new(); self.tracks.len()];
+        for (segment, &own) in self.index.segments().iter().zip(&self.owner) {
+            self.index.for_each_near(*segment, reach, |index, other| {
+                let track = self.owner[index];
+                let known: &mut Vec<usize> = &mut neighbours[own];
+                if track != own && !known.contains(&track) && segment.distance_to(&other) <= reach {
+                    known.push(track);
+                }
+            });
+        }
+        self.neighbours = Some(neighbours);
+    }
+
+    /// Whether something is near a track that it is not yet joined to, or nobody has looked.
+    fn may_be_joined(&mut self, track: usize) -> bool {
+        let Some(neighbours) = self.neighbours.take() else { return true };
+        let own = self.part(track);
+        let apart = neighbours[track].iter().any(|&other| self.part(other) != own);
+        self.neighbours = Some(neighbours);
+        apart
+    }
+
+    /// Adds where a track could be joined to others that are no shorter and not yet joined to it.
+    fn sketch(&mut self, track: usize, search: &Search<'_>, open: &mut BinaryHeap<Open>) {
+        let own = &self.tracks[track];
+        let length = own.curve.length();
+        let part = self.part(track);
+        let count = search.count(own);
+        // The nearest place of each other track.
+        let mut near: Vec<(usize, NearestSegment)> = Vec::new();
+        for k in 0..count {
+            let from = own.place((k as f64 + 0.5) * length / count as f64);
+            near.clear();
+            self.index.for_each_near(Segment::new(from.at, from.at), search.reach, |index, segment| {
+                let other = self.owner[index];
+                let longer = self.tracks[other].curve.length();
+                if longer < length || (longer == length && other <= track) {
+                    return;
+                }
+                let nearest = segment.nearest(from.at);
+                let (point, distance) = (nearest.point, nearest.distance);
+                if distance > search.reach {
+                    return;
+                }
+                let found = NearestSegment { index, point, distance };
+                match near.iter_mut().find(|(known, _)| *known == other) {
+                    None => near.push((other, found)),
+                    Some((_, best)) => {
+                        if distance < best.distance || (distance == best.distance && index < best.index) {
+                            *best = found;
+                        }
+                    }
+                }
+            });
+            near.sort_unstable_by_key(|(other, _)| *other);
+            for &(other, nearest) in &near {
+                if self.part(other) == part {
+                    continue;
+                }
+                let to = self.tracks[other].place_on(nearest.index - self.first_segment[other], nearest.point);
+                if let Some(sketch) = search.sketch([track, other], own, [from, to]) {
+                    open.push(Open {
+                        place: open.len(),
+                        score: sketch.bound,
+                        sketch,
+                        candidate: None,
+                    });
+                }
+            }
         }
     }
 

@@ -69,8 +69,6 @@ pub(crate) struct Track {
     pub(crate) curve: ClosedCurve,
     pub(crate) index: SegmentIndex,
     pub(crate) wall: Option<usize>,
-    low: DVec2,
-    high: DVec2,
 }
 
 /// A place on a track.
@@ -87,11 +85,7 @@ impl Track {
             .filter(|curve| curve.segment_count() > 2)
             .ok_or(FillError::Ring { ring: number })?;
         let index = SegmentIndex::of_curves([&curve], width);
-        let (low, high) = curve
-            .points()
-            .iter()
-            .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)));
-        Ok(Self { curve, index, wall: ring.wall, low, high })
+        Ok(Self { curve, index, wall: ring.wall })
     }
 
     pub(crate) fn place(&self, arc: f64) -> Place {
@@ -101,20 +95,16 @@ impl Track {
     /// The place nearest to `p`, if it is within `reach`.
     pub(crate) fn nearest(&self, p: DVec2, reach: f64) -> Option<Place> {
         let near = self.index.nearest_within(p, reach)?;
-        let segment = self.curve.segment(near.index);
-        Some(Place {
-            arc: self.curve.arc_of(near.index) + segment.start.distance(near.point),
-            at: near.point,
-        })
+        Some(self.place_on(near.index, near.point))
+    }
+
+    /// A point of one of its segments.
+    pub(crate) fn place_on(&self, segment: usize, at: DVec2) -> Place {
+        Place { arc: self.curve.arc_of(segment) + self.curve.points()[segment].distance(at), at }
     }
 
     /// Direction at an arc, as the chord over `step` to either side.
     pub(crate) fn heading(&self, arc: f64, step: f64) -> DVec2 {
         (self.curve.point_at(arc + step) - self.curve.point_at(arc - step)).normalize_or_zero()
-    }
-
-    /// Whether the boxes come within `reach` of each other.
-    pub(crate) fn may_reach(&self, other: &Self, reach: f64) -> bool {
-        (self.low - reach).cmple(other.high).all() && (other.low - reach).cmple(self.high).all()
     }
 }
