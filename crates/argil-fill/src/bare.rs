@@ -4,7 +4,8 @@ use std::collections::HashMap;
 
 use argil_curve::{DVec2, Segment, SegmentIndex};
 
-use crate::survey::{Sample, survey};
+use crate::nearest::Nearest;
+use crate::rings::Core;
 
 /// A disc inside of the region that no bead touches.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,10 +25,6 @@ pub(crate) struct Scan {
     pub(crate) discs: Vec<BareDisc>,
 }
 
-/// Distance of the points that are looked at, in w, and at least so many of them.
-const STEP: f64 = 0.15;
-const LEAST_POINTS: f64 = 3000.0;
-
 /// Distances beyond the first are as good as it while discs are looked for, and beyond the second for good; in w.
 const FAR: f64 = 1.5;
 const FARTHEST: f64 = 3.0;
@@ -36,53 +33,56 @@ const FARTHEST: f64 = 3.0;
 const LARGEST_STEP: f64 = 0.1;
 const SMALLEST_STEP: f64 = 0.01;
 
-/// Looks for what the strand leaves bare of the core, the places where the middle of a bead may be, given by its `sides`.
+/// Looks for what the strand leaves bare of the core, the places where the middle of a bead may be: the inside of the plot.
 ///
 /// What lies farther out than the core is reached by a bead along the core's edge or by none, so nothing else can be bare.
 ///
 /// # Complexity
-/// O(area / step²), and a look at the segments about each point that is bare.
-pub(crate) fn scan(sides: &[Segment], area: f64, strand: &SegmentIndex, width: f64, limit: f64) -> Scan {
-    let step = (STEP * width).min((area / LEAST_POINTS).sqrt());
+/// O(points of the plot), and a look at the segments about each point that is bare.
+pub(crate) fn scan(core: &Core, strand: &SegmentIndex, width: f64, limit: f64) -> Scan {
+    let plot = &core.plot;
+    let step = plot.step;
+    let nearest = Nearest::new(plot, strand.segments());
     let least = 0.5 * (width + limit);
     // The point nearest to a disc's middle is at most half a diagonal away from it.
     let suspicious = least - std::f64::consts::FRAC_1_SQRT_2 * step;
     let mut found = Scan::default();
-    let mut suspects: Vec<Sample> = Vec::new();
-    survey(sides, strand.segments(), step, FAR * width, |sample| {
-        if sample.distance > 0.5 * width {
-            found.bare += step * step;
+    let mut suspects: Vec<(f64, usize, usize)> = Vec::new();
+    for &(row, first, last) in &plot.runs {
+        for column in first..=last {
+            let distance = nearest.distance(column, row);
+            if distance > 0.5 * width {
+                found.bare += step * step;
+            }
+            if distance > suspicious {
+                suspects.push((distance, row, column));
+            }
         }
-        if sample.distance > suspicious {
-            suspects.push(sample);
-        }
-    });
+    }
     // The sort keeps the order of the grid among equals.
-    suspects.sort_by(|a, b| b.distance.total_cmp(&a.distance));
+    suspects.sort_by(|a, b| b.0.total_cmp(&a.0));
     let mut chosen = Chosen { cell: width, ..Chosen::default() };
     // Whether the rise from a place leads to a disc that is wide enough.
-    let mut leads: HashMap<(i64, i64), bool> = HashMap::with_capacity(suspects.len());
+    let mut leads: HashMap<(usize, usize), bool> = HashMap::with_capacity(suspects.len());
     let mut near: Vec<Segment> = Vec::new();
-    for sample in suspects {
-        let around = (-1..=1).flat_map(|r| (-1..=1).map(move |c| (sample.row + r, sample.column + c)));
+    for (_, row, column) in suspects {
+        let around = (row - 1..=row + 1).flat_map(|r| (column - 1..=column + 1).map(move |c| (r, c)));
         let mut higher = around.filter_map(|place| leads.get(&place)).copied().peekable();
         // A place below one that leads nowhere rises to the same top.
         if higher.peek().is_some() && !higher.any(|leads| leads) {
-            leads.insert((sample.row, sample.column), false);
+            leads.insert((row, column), false);
             continue;
         }
-        if chosen.covers(sample.at) {
-            leads.insert((sample.row, sample.column), true);
+        let at = plot.at(column, row);
+        if chosen.covers(at) {
+            leads.insert((row, column), true);
             continue;
         }
         near.clear();
-        let spot = Segment::new(sample.at, sample.at);
-        strand.for_each_near(spot, FAR * width + 0.5 * width, |_, segment| near.push(segment));
-        let disc = climbed(sample.at, &near, width, least);
-        leads.insert((sample.row, sample.column), disc.is_some());
-        if let Some(centre) = disc
-            && holds(sides, centre)
-        {
+        strand.for_each_near(Segment::new(at, at), FAR * width, |_, segment| near.push(segment));
+        let (centre, distance) = summit(at, &near, width, least);
+        leads.insert((row, column), distance >= least);
+        if distance >= least && holds(&core.sides, centre) {
             let distance = strand.distance(centre).min(FARTHEST * width);
             chosen.add(BareDisc { centre, diameter: 2.0 * distance - width });
         }
@@ -137,8 +137,8 @@ fn distance_to(strand: &[Segment], p: DVec2, width: f64) -> f64 {
     strand.iter().map(|segment| segment.distance(p)).fold(FAR * width, f64::min)
 }
 
-/// The place to which the distance from the strand rises, if it becomes large enough.
-fn climbed(from: DVec2, strand: &[Segment], width: f64, least: f64) -> Option<DVec2> {
+/// The place to which the distance from the strand rises, and that distance; it ends early where `least` cannot be reached.
+pub(crate) fn summit(from: DVec2, strand: &[Segment], width: f64, least: f64) -> (DVec2, f64) {
     let (mut at, mut best, mut step) = (from, distance_to(strand, from, width), LARGEST_STEP * width);
     while step >= SMALLEST_STEP * width && best + 2.0 * step > least {
         let around =
@@ -151,7 +151,7 @@ fn climbed(from: DVec2, strand: &[Segment], width: f64, least: f64) -> Option<DV
             _ => step *= 0.5,
         }
     }
-    (best >= least).then_some(at)
+    (at, best)
 }
 
 /// Whether the point lies inside by the even-odd rule.

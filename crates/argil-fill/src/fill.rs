@@ -1,17 +1,17 @@
 //! A region to closed curves of beads.
 
-use argil_curve::{DVec2, Segment, self_crossings};
+use argil_curve::{DVec2, self_crossings};
 use geo::Area;
-use geo_types::{Coord, LineString, MultiPolygon, Polygon};
+use geo_types::{LineString, MultiPolygon, Polygon};
 
-use crate::bare::{BareDisc, scan};
+use crate::bare::{BareDisc, Scan, scan};
 use crate::curve::FillCurve;
 use crate::detour::{Strand, mended};
 use crate::joint::Joint;
 use crate::merge::merge;
 use crate::offset::{dilation, rings};
 use crate::ring::Ring;
-use crate::rings::rings_of;
+use crate::rings::{Core, rings_of};
 use crate::{FillError, FillOptions};
 
 /// A filled region.
@@ -87,11 +87,11 @@ pub fn fill(
     all.extend(own.rings);
     let merged = merge(&all, options, avoid)?;
     let mut curves = merged.curves;
-    let reachable = if own.core.0.is_empty() { 0.0 } else { dilation(&own.core, 0.5 * w, w).unsigned_area() };
+    let reachable =
+        if own.outline.0.is_empty() { 0.0 } else { dilation(&own.outline, 0.5 * w, w).unsigned_area() };
     let limit = options.bare * w;
-    let sides = sides_of(&own.core);
     let mut strand = Strand::new(&curves, w, options.grid);
-    let mut found = scan(&sides, reachable, &strand.index, w, limit);
+    let mut found = scan_all(&own.cores, &strand, w, limit);
     let merged_only = (curves.clone(), found.clone());
     let mut detours = 0;
     for _ in 0..options.mending {
@@ -101,7 +101,7 @@ pub fn fill(
         }
         detours += made;
         strand = Strand::new(&curves, w, options.grid);
-        found = scan(&sides, reachable, &strand.index, w, limit);
+        found = scan_all(&own.cores, &strand, w, limit);
     }
     if detours > 0 && curves.iter().any(|curve| !self_crossings(&curve.points).is_empty()) {
         (curves, found) = merged_only;
@@ -134,10 +134,15 @@ fn with_rings_that_are_some(region: &MultiPolygon<f64>) -> MultiPolygon<f64> {
     )
 }
 
-fn sides_of(core: &MultiPolygon<f64>) -> Vec<Segment> {
-    let corner = |c: Coord<f64>| DVec2::new(c.x, c.y);
-    let lines = core.iter().flat_map(rings).flat_map(|ring| ring.lines());
-    lines.map(|line| Segment::new(corner(line.start), corner(line.end))).collect()
+fn scan_all(cores: &[Core], strand: &Strand, width: f64, limit: f64) -> Scan {
+    let mut all = Scan::default();
+    for core in cores {
+        let own = scan(core, &strand.index, width, limit);
+        all.bare += own.bare;
+        all.discs.extend(own.discs);
+    }
+    all.discs.sort_by(|a, b| b.diameter.total_cmp(&a.diameter));
+    all
 }
 
 fn check_coordinates(region: &MultiPolygon<f64>, options: &FillOptions) -> Result<(), FillError> {

@@ -14,19 +14,20 @@
 #![forbid(unsafe_code)]
 
 mod bare;
+mod contour;
 mod curve;
 mod detour;
 mod error;
 mod fill;
-mod inscribed;
 mod joint;
 mod merge;
+mod nearest;
 mod offset;
 mod options;
+mod plot;
 mod residue;
 mod ring;
 mod rings;
-mod survey;
 mod trace;
 
 pub use argil_curve::DVec2;

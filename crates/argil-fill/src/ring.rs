@@ -2,7 +2,7 @@
 
 use argil_curve::{ClosedCurve, DVec2, SegmentIndex};
 use geo::Simplify;
-use geo_types::{LineString, Polygon};
+use geo_types::{Coord, LineString, Polygon};
 
 use crate::FillError;
 use crate::offset::{ring_points, rings};
@@ -24,11 +24,15 @@ const LEAST_SIDE: f64 = 12.0;
 
 /// The rings round a polygon, simplified and on the grid; those shorter than `least` mm are left out.
 pub(crate) fn rings_round(polygon: &Polygon<f64>, width: f64, grid: f64, least: f64) -> Vec<Vec<DVec2>> {
-    rings(polygon)
-        .map(|ring| ring_points(&ring.simplify(TOLERANCE * width)))
-        .map(|points| rounded(&points, grid))
-        .filter(|points| points.len() >= 3 && perimeter(points) >= least)
-        .collect()
+    rings(polygon).filter_map(|ring| ring_on_grid(ring_points(ring), width, grid, least)).collect()
+}
+
+/// The ring through some points, simplified and on the grid, unless it is shorter than `least` mm.
+pub(crate) fn ring_on_grid(points: Vec<DVec2>, width: f64, grid: f64, least: f64) -> Option<Vec<DVec2>> {
+    let mut line: LineString<f64> = points.into_iter().map(|p| Coord { x: p.x, y: p.y }).collect();
+    line.close();
+    let points = rounded(&ring_points(&line.simplify(TOLERANCE * width)), grid);
+    (points.len() >= 3 && perimeter(&points) >= least).then_some(points)
 }
 
 /// The points on the grid, without sides that are too short.

@@ -1,0 +1,155 @@
+//! Lines of equal distance on a grid, with their corners.
+
+use argil_curve::{DVec2, Segment};
+
+/// What is known at a point of the grid.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Spot {
+    pub(crate) at: DVec2,
+    /// Distance from its site, mm; not positive where there is no site.
+    pub(crate) distance: f64,
+    pub(crate) site: u32,
+    /// The distance that its line has.
+    pub(crate) level: f64,
+}
+
+/// A vertex in a cell of the grid, and the sides of the cell by which its line comes in and goes out; inside is on the left.
+#[derive(Clone, Copy, Debug)]
+struct Turn {
+    at: DVec2,
+    level: f64,
+    enters: u64,
+    leaves: u64,
+}
+
+/// Lines round where the distance exceeds the level of a point, with the level of each.
+///
+/// Dual contouring (Ju et al. 2002, <https://doi.org/10.1145/566654.566586>): each cell that a line goes through has one vertex, where the
+/// tangents at its sides meet, so that straight stretches and corners come out as they are. Parts that touch at a corner of the grid
+/// only are parted, and a point counts as inside from `slight` (mm) beyond its level on, so that no part is thinner than twice as much
+/// where the grid sees it.
+///
+/// `cells` are the low corners of the cells in some order, `spot` is asked for corners.
+///
+/// # Complexity
+/// O(cells + vertices · log vertices).
+pub(crate) fn contours(
+    cells: impl Iterator<Item = (usize, usize)>,
+    sites: &[Segment],
+    slight: f64,
+    corners: impl Fn(usize, usize) -> Option<[Spot; 4]>,
+) -> Vec<(f64, Vec<DVec2>)> {
+    let mut turns: Vec<Turn> = Vec::new();
+    for (column, row) in cells {
+        let Some(spots) = corners(column, row) else { continue };
+        let inside = spots.map(|spot| spot.distance > spot.level + slight);
+        if inside[0] == inside[1] && inside[1] == inside[2] && inside[2] == inside[3] {
+            continue;
+        }
+        for first in (0..4).filter(|&k| inside[k] && !inside[(k + 3) % 4]) {
+            let mut last = first;
+            while inside[(last + 1) % 4] {
+                last = (last + 1) % 4;
+            }
+            let before = (first + 3) % 4;
+            let leaves = crossing(&spots[first], &spots[before], sites);
+            let enters = crossing(&spots[last], &spots[(last + 1) % 4], sites);
+            let is_saddle = first == last && inside[(first + 2) % 4];
+            let at = if is_saddle {
+                leaves.0.midpoint(enters.0)
+            } else {
+                corner(leaves, enters, spots[0].at, spots[2].at)
+            };
+            let (enters, leaves) = (side(column, row, last), side(column, row, before));
+            turns.push(Turn { at, level: spots[first].level, enters, leaves });
+        }
+    }
+    linked(&turns)
+}
+
+/// The number of a cell's side: of the point where it begins, and whether it is upright.
+fn side(column: usize, row: usize, side: usize) -> u64 {
+    let (column, row, upright) = match side {
+        0 => (column, row, 0),
+        1 => (column + 1, row, 1),
+        2 => (column, row + 1, 0),
+        _ => (column, row, 1),
+    };
+    ((row as u64) << 32 | column as u64) << 1 | upright
+}
+
+/// Where the line crosses between a point inside and one outside, and the direction inwards.
+fn crossing(inner: &Spot, outer: &Spot, sites: &[Segment]) -> (DVec2, DVec2) {
+    let level = inner.level;
+    if outer.distance >= level {
+        return (outer.at, inner.at - outer.at);
+    }
+    let candidates = [inner, outer].map(|spot| sites.get(spot.site as usize));
+    let look = |p: DVec2| {
+        let near = candidates.iter().flatten().map(|site| site.nearest(p));
+        near.min_by(|a, b| a.distance.total_cmp(&b.distance))
+    };
+    // False position: exact at once where both have the same straight site.
+    let (mut low, mut high) = ((0.0, inner.distance - level), (1.0, outer.distance - level));
+    let mut found = (inner.at.midpoint(outer.at), inner.at - outer.at);
+    for _ in 0..3 {
+        let t = low.0 + (high.0 - low.0) * low.1 / (low.1 - high.1);
+        let p = inner.at.lerp(outer.at, t);
+        let Some(near) = look(p) else { break };
+        found = (p, p - near.point);
+        let excess = near.distance - level;
+        if excess.abs() < 1e-6 * level {
+            break;
+        }
+        if excess > 0.0 {
+            low = (t, excess);
+        } else {
+            high = (t, excess);
+        }
+    }
+    found
+}
+
+/// Tangents that turn by less than this make no corner; the sine of the angle.
+const LEAST_TURN: f64 = 0.2;
+
+/// Where the tangents at two crossings meet, if they do so inside of the cell, or the middle between them.
+fn corner(leaves: (DVec2, DVec2), enters: (DVec2, DVec2), low: DVec2, high: DVec2) -> DVec2 {
+    let (a, b) = (leaves.1.normalize_or_zero(), enters.1.normalize_or_zero());
+    let turn = a.perp_dot(b);
+    let middle = leaves.0.midpoint(enters.0);
+    if turn.abs() < LEAST_TURN {
+        return middle;
+    }
+    let (c, d) = (a.dot(leaves.0 - middle), b.dot(enters.0 - middle));
+    let meeting = middle + DVec2::new(c * b.y - d * a.y, d * a.x - c * b.x) / turn;
+    if meeting.cmpge(low).all() && meeting.cmple(high).all() { meeting } else { middle }
+}
+
+/// The vertices in their order along closed lines.
+fn linked(turns: &[Turn]) -> Vec<(f64, Vec<DVec2>)> {
+    let mut entries: Vec<(u64, usize)> = turns.iter().enumerate().map(|(k, turn)| (turn.enters, k)).collect();
+    entries.sort_unstable();
+    let after = |turn: &Turn| {
+        let found = entries.binary_search_by_key(&turn.leaves, |entry| entry.0);
+        found.ok().map(|place| entries[place].1)
+    };
+    let mut used = vec![false; turns.len()];
+    let mut lines = Vec::new();
+    for start in 0..turns.len() {
+        let mut points = Vec::new();
+        let mut next = Some(start);
+        while let Some(k) = next
+            && !used[k]
+        {
+            used[k] = true;
+            points.push(turns[k].at);
+            next = after(&turns[k]);
+        }
+        // A line that leaves the grid is none.
+        if next == Some(start) && points.len() > 2 {
+            lines.push((turns[start].level, points));
+        }
+    }
+    lines
+}
