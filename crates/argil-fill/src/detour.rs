@@ -181,9 +181,10 @@ impl Strand {
         }
         let [from, tip, to] = detour.corners;
         let legs = [Segment::new(from, tip), Segment::new(to, tip)];
-        let inner = legs.map(|leg| Segment::new(leg.point_at(0.05), tip));
         let mut clear = true;
-        for leg in inner {
+        for leg in legs {
+            // Its base lies on the curve itself.
+            let inner = Segment::new(leg.point_at(0.05), tip);
             self.index.for_each_near(leg, LEG_APART * self.width, |k, other| {
                 let (number, own) = self.owner[k];
                 let place = if number == detour.curve { (own + n - first) % n } else { usize::MAX };
@@ -202,9 +203,9 @@ impl Strand {
                 };
                 clear &= gone
                     || if beside {
-                        !self.remains_crossed(leg, other, detour, curve, own)
+                        !remains_crossed(leg, other, detour, curve, own)
                     } else {
-                        leg.distance_to(&other) >= LEG_APART * self.width
+                        !leg.crosses(&other) && inner.distance_to(&other) >= LEG_APART * self.width
                     };
             });
         }
@@ -225,26 +226,20 @@ impl Strand {
                 .into_iter()
                 .all(|other| legs.iter().all(|leg| leg.distance_to(&other) > LEG_APART * self.width))
     }
+}
 
-    /// Whether a leg crosses what remains of a segment beside the detour.
-    fn remains_crossed(
-        &self,
-        leg: Segment,
-        other: Segment,
-        detour: &Detour,
-        curve: &ClosedCurve,
-        own: usize,
-    ) -> bool {
-        let length = curve.length();
-        let into = (detour.start - curve.arc_of(own)).rem_euclid(length);
-        let out = (detour.start + detour.taken - curve.arc_of(own)).rem_euclid(length);
-        let size = other.length();
-        let before = (into < size).then(|| Segment::new(other.start, other.point_at(into / size)));
-        let after = (out < size).then(|| Segment::new(other.point_at(out / size), other.end));
-        match (before, after) {
-            (None, None) => leg.crosses(&other),
-            parts => [parts.0, parts.1].into_iter().flatten().any(|part| leg.crosses(&part)),
-        }
+/// Whether a leg crosses what remains of a segment beside the detour.
+fn remains_crossed(leg: Segment, other: Segment, detour: &Detour, curve: &ClosedCurve, own: usize) -> bool {
+    let length = curve.length();
+    let into = (detour.start - curve.arc_of(own)).rem_euclid(length);
+    let out = (detour.start + detour.taken - curve.arc_of(own)).rem_euclid(length);
+    let size = other.length();
+    // What remains ends where the legs begin, on the grid.
+    let before = (into < size).then(|| Segment::new(other.start, detour.corners[0]));
+    let after = (out < size).then(|| Segment::new(detour.corners[2], other.end));
+    match (before, after) {
+        (None, None) => leg.crosses(&other),
+        parts => [parts.0, parts.1].into_iter().flatten().any(|part| leg.crosses(&part)),
     }
 }
 

@@ -147,7 +147,9 @@ struct Tree<'a> {
 
 impl<'a> Tree<'a> {
     fn new(tracks: &'a [Track], options: &'a FillOptions) -> Self {
-        let index = SegmentIndex::of_curves(tracks.iter().map(|track| &track.curve), options.width);
+        // A query within reach then looks at few cells.
+        let cell = 1.01 * options.reach * options.width;
+        let index = SegmentIndex::of_curves(tracks.iter().map(|track| &track.curve), cell);
         let owner = tracks
             .iter()
             .enumerate()

@@ -116,18 +116,39 @@ impl<'a> Nearest<'a> {
         for ((row, first, last), rising) in up.chain(down) {
             let start = row * columns;
             let behind = if rising { start - columns } else { start + columns };
-            let mut pass = |column: usize, before: usize| {
+            for column in first..=last {
                 let point = start + column;
-                self.ask(point, column, row, start + before, side);
                 self.ask(point, column, row, behind + column, side);
                 self.ask(point, column, row, behind + column - 1, diagonal);
                 self.ask(point, column, row, behind + column + 1, diagonal);
-            };
-            for column in first..=last {
-                pass(column, column - 1);
+                self.ask(point, column, row, point - 1, side);
+                self.descend(point, column, row);
             }
             for column in (first..=last).rev() {
-                pass(column, column + 1);
+                let point = start + column;
+                self.ask(point, column, row, point + 1, side);
+            }
+        }
+    }
+
+    /// Looks along the sites for nearer ones: those of one ring follow each other, and where many small ones meet, their
+    /// points have no neighbour that knows them.
+    fn descend(&mut self, point: usize, column: usize, row: usize) {
+        let site = self.site[point];
+        if site == NONE {
+            return;
+        }
+        for up in [true, false] {
+            let mut next = site;
+            loop {
+                next = if up { next.wrapping_add(1) } else { next.wrapping_sub(1) };
+                if next as usize >= self.sites.len() {
+                    break;
+                }
+                self.take(point, column, row, next);
+                if self.site[point] != next {
+                    break;
+                }
             }
         }
     }
