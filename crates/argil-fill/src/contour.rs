@@ -25,9 +25,9 @@ struct Turn {
 /// Lines round where the distance exceeds the level of a point, with the level of each.
 ///
 /// Dual contouring (Ju et al. 2002, <https://doi.org/10.1145/566654.566586>): each cell that a line goes through has one vertex, where the
-/// tangents at its sides meet, so that straight stretches and corners come out as they are. Parts that touch at a corner of the grid
-/// only are parted, and a point counts as inside from `slight` (mm) beyond its level on, so that no part is thinner than twice as much
-/// where the grid sees it.
+/// tangents at its sides meet, so that straight stretches and corners come out as they are. The cells are those of the line that is
+/// `slight` (mm) farther in, whose tangents are then moved out by as much: no part is thinner than twice that. Parts that touch at a corner
+/// of the grid only are parted.
 ///
 /// `cells` are the low corners of the cells in some order, `spot` is asked for corners.
 ///
@@ -52,13 +52,13 @@ pub(crate) fn contours(
                 last = (last + 1) % 4;
             }
             let before = (first + 3) % 4;
-            let leaves = crossing(&spots[first], &spots[before], sites);
-            let enters = crossing(&spots[last], &spots[(last + 1) % 4], sites);
+            let leaves = crossing(&spots[first], &spots[before], sites, slight);
+            let enters = crossing(&spots[last], &spots[(last + 1) % 4], sites, slight);
             let is_saddle = first == last && inside[(first + 2) % 4];
             let at = if is_saddle {
                 leaves.0.midpoint(enters.0)
             } else {
-                corner(leaves, enters, spots[0].at, spots[2].at)
+                corner(leaves, enters, slight, [spots[0].at, spots[2].at])
             };
             let (enters, leaves) = (side(column, row, last), side(column, row, before));
             turns.push(Turn { at, level: spots[first].level, enters, leaves });
@@ -78,12 +78,9 @@ fn side(column: usize, row: usize, side: usize) -> u64 {
     ((row as u64) << 32 | column as u64) << 1 | upright
 }
 
-/// Where the line crosses between a point inside and one outside, and the direction inwards.
-fn crossing(inner: &Spot, outer: &Spot, sites: &[Segment]) -> (DVec2, DVec2) {
-    let level = inner.level;
-    if outer.distance >= level {
-        return (outer.at, inner.at - outer.at);
-    }
+/// Where the line that is farther in crosses between a point inside and one outside, and the direction inwards.
+fn crossing(inner: &Spot, outer: &Spot, sites: &[Segment], slight: f64) -> (DVec2, DVec2) {
+    let level = inner.level + slight;
     let candidates = [inner, outer].map(|spot| sites.get(spot.site as usize));
     let look = |p: DVec2| {
         let near = candidates.iter().flatten().map(|site| site.nearest(p));
@@ -113,17 +110,18 @@ fn crossing(inner: &Spot, outer: &Spot, sites: &[Segment]) -> (DVec2, DVec2) {
 /// Tangents that turn by less than this make no corner; the sine of the angle.
 const LEAST_TURN: f64 = 0.2;
 
-/// Where the tangents at two crossings meet, if they do so inside of the cell, or the middle between them.
-fn corner(leaves: (DVec2, DVec2), enters: (DVec2, DVec2), low: DVec2, high: DVec2) -> DVec2 {
+/// Where the tangents at two crossings meet once they are moved out, if they do so inside of the cell; else the middle between them.
+fn corner(leaves: (DVec2, DVec2), enters: (DVec2, DVec2), slight: f64, [low, high]: [DVec2; 2]) -> DVec2 {
     let (a, b) = (leaves.1.normalize_or_zero(), enters.1.normalize_or_zero());
     let turn = a.perp_dot(b);
     let middle = leaves.0.midpoint(enters.0);
+    let moved = middle - slight * (a + b).normalize_or_zero();
     if turn.abs() < LEAST_TURN {
-        return middle;
+        return moved;
     }
-    let (c, d) = (a.dot(leaves.0 - middle), b.dot(enters.0 - middle));
+    let (c, d) = (a.dot(leaves.0 - middle) - slight, b.dot(enters.0 - middle) - slight);
     let meeting = middle + DVec2::new(c * b.y - d * a.y, d * a.x - c * b.x) / turn;
-    if meeting.cmpge(low).all() && meeting.cmple(high).all() { meeting } else { middle }
+    if meeting.cmpge(low).all() && meeting.cmple(high).all() { meeting } else { moved }
 }
 
 /// The vertices in their order along closed lines.
