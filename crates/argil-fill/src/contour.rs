@@ -13,11 +13,16 @@ pub(crate) struct Spot {
     pub(crate) level: f64,
 }
 
+/// Strips that are wider than twice this, in steps of the grid, hang together on it in any direction.
+const THIN: f64 = 0.72;
+
 /// A vertex in a cell of the grid, and the sides of the cell by which its line comes in and goes out; inside is on the left.
 #[derive(Clone, Copy, Debug)]
 struct Turn {
     at: DVec2,
     level: f64,
+    /// The greatest distance at a corner of the cell or next to one, mm.
+    deepest: f64,
     enters: u64,
     leaves: u64,
 }
@@ -27,17 +32,20 @@ struct Turn {
 /// Dual contouring (Ju et al. 2002, <https://doi.org/10.1145/566654.566586>): each cell that a line goes through has one vertex, where the
 /// tangents at its sides meet, so that straight stretches and corners come out as they are. The cells are those of the line that is
 /// `slight` (mm) farther in, whose tangents are then moved out by as much: no part is thinner than twice that. Parts that touch at a corner
-/// of the grid only are parted.
+/// of the grid only are parted. Parts that are so thin that the grid may see but pieces of them have no line.
 ///
-/// `cells` are the low corners of the cells in some order, `spot` is asked for corners.
+/// `cells` are the low corners of the cells in some order, `corners` are asked for their corners in turn, `distance` for the
+/// points about them.
 ///
 /// # Complexity
 /// O(cells + vertices · log vertices).
 pub(crate) fn contours(
     cells: impl Iterator<Item = (usize, usize)>,
     sites: &[Segment],
+    step: f64,
     slight: f64,
     corners: impl Fn(usize, usize) -> Option<[Spot; 4]>,
+    distance: impl Fn(usize, usize) -> f64,
 ) -> Vec<(f64, Vec<DVec2>)> {
     let mut turns: Vec<Turn> = Vec::new();
     for (column, row) in cells {
@@ -61,10 +69,13 @@ pub(crate) fn contours(
                 corner(leaves, enters, slight, [spots[0].at, spots[2].at])
             };
             let (enters, leaves) = (side(column, row, last), side(column, row, before));
-            turns.push(Turn { at, level: spots[first].level, enters, leaves });
+            let about = (row.saturating_sub(1)..=row + 2)
+                .flat_map(|r| (column.saturating_sub(1)..=column + 2).map(move |c| (c, r)));
+            let deepest = about.map(|(c, r)| distance(c, r)).fold(0.0, f64::max);
+            turns.push(Turn { at, level: spots[first].level, deepest, enters, leaves });
         }
     }
-    linked(&turns)
+    linked(&turns, slight + THIN * step)
 }
 
 /// The number of a cell's side: of the point where it begins, and whether it is upright.
@@ -124,8 +135,8 @@ fn corner(leaves: (DVec2, DVec2), enters: (DVec2, DVec2), slight: f64, [low, hig
     if meeting.cmpge(low).all() && meeting.cmple(high).all() { meeting } else { moved }
 }
 
-/// The vertices in their order along closed lines.
-fn linked(turns: &[Turn]) -> Vec<(f64, Vec<DVec2>)> {
+/// The vertices in their order along closed lines, without those round parts whose inside is no deeper than `thin`.
+fn linked(turns: &[Turn], thin: f64) -> Vec<(f64, Vec<DVec2>)> {
     let mut entries: Vec<(u64, usize)> = turns.iter().enumerate().map(|(k, turn)| (turn.enters, k)).collect();
     entries.sort_unstable();
     let after = |turn: &Turn| {
@@ -136,17 +147,20 @@ fn linked(turns: &[Turn]) -> Vec<(f64, Vec<DVec2>)> {
     let mut lines = Vec::new();
     for start in 0..turns.len() {
         let mut points = Vec::new();
+        let mut deepest = 0.0_f64;
         let mut next = Some(start);
         while let Some(k) = next
             && !used[k]
         {
             used[k] = true;
             points.push(turns[k].at);
+            deepest = deepest.max(turns[k].deepest);
             next = after(&turns[k]);
         }
         // A line that leaves the grid is none.
-        if next == Some(start) && points.len() > 2 {
-            lines.push((turns[start].level, points));
+        let level = turns[start].level;
+        if next == Some(start) && points.len() > 2 && deepest >= level + thin {
+            lines.push((level, points));
         }
     }
     lines

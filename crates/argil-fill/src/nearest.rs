@@ -53,7 +53,11 @@ impl<'a> Nearest<'a> {
 
     /// Distance from the nearest site, mm: infinite without sites, negative outside.
     pub(crate) fn distance(&self, column: usize, row: usize) -> f64 {
-        self.distance[row * self.plot.columns + column]
+        if column < self.plot.columns && row < self.plot.rows {
+            self.distance[row * self.plot.columns + column]
+        } else {
+            -1.0
+        }
     }
 
     /// The number of the nearest site, or [`NONE`].

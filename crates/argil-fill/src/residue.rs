@@ -31,11 +31,14 @@ pub(crate) fn strips(nearest: &Nearest<'_>, options: &FillOptions) -> Vec<Vec<DV
     let parts = Parts::found(nearest, options);
     let levels: Vec<f64> = (0..parts.count).map(|part| parts.level(part, options)).collect();
     let fine = Fine::over(&parts, &levels);
-    let lines = contours(fine.cells(), nearest.sites, SLIGHT * options.width, |column, row| {
+    let step = nearest.plot.step / FINER as f64;
+    let corners = |column, row| {
         let spot = |column, row| fine.spot(column, row);
         let [low, east] = [spot(column, row)?, spot(column + 1, row)?];
         Some([low, east, spot(column + 1, row + 1)?, spot(column, row + 1)?])
-    });
+    };
+    let distance = |column, row| fine.spot(column, row).map_or(0.0, |spot| spot.distance);
+    let lines = contours(fine.cells(), nearest.sites, step, SLIGHT * options.width, corners, distance);
     lines
         .into_iter()
         .filter_map(|(_, points)| {

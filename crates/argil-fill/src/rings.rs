@@ -120,12 +120,14 @@ fn inner_rings(part: &Core, options: &FillOptions) -> Vec<Ring> {
     };
     let cells =
         plot.runs.iter().flat_map(|&(row, first, last)| (first - 1..=last).map(move |column| (column, row)));
-    let lines = contours(cells, nearest.sites, slight, |column, row| {
+    let corners_of = |column: usize, row: usize| {
         let corners = [(column, row), (column + 1, row), (column + 1, row + 1), (column, row + 1)];
         let highest = corners.iter().map(|&(c, r)| nearest.distance(c, r)).fold(0.0, f64::max);
         let level = ((highest - slight) / w).floor() * w;
         (level > 0.0).then(|| corners.map(|(column, row)| Spot { level, ..spot(column, row) }))
-    });
+    };
+    let distance = |column, row| nearest.distance(column, row);
+    let lines = contours(cells, nearest.sites, plot.step, slight, corners_of, distance);
     let mut leveled: Vec<(f64, Vec<DVec2>)> = lines
         .into_iter()
         .filter_map(|(level, points)| {
