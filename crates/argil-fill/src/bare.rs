@@ -33,16 +33,53 @@ const FARTHEST: f64 = 3.0;
 const LARGEST_STEP: f64 = 0.1;
 const SMALLEST_STEP: f64 = 0.01;
 
+/// Where strand has changed, points so far away are looked at again, in w.
+const RENEWED: f64 = 0.8;
+
+/// The distance from the strand all over a core.
+#[derive(Debug)]
+pub(crate) struct Survey<'a> {
+    core: &'a Core,
+    distance: Vec<f64>,
+}
+
+impl<'a> Survey<'a> {
+    /// # Complexity
+    /// O(points of the plot + length of the strand).
+    pub(crate) fn new(core: &'a Core, strand: &SegmentIndex) -> Self {
+        Self { core, distance: Nearest::new(&core.plot, strand.segments()).into_distances() }
+    }
+
+    /// Looks again at the points about places where the strand has changed, each from a low corner to a high one.
+    pub(crate) fn renew(&mut self, places: &[[DVec2; 2]], strand: &SegmentIndex, width: f64) {
+        let plot = &self.core.plot;
+        let mut near: Vec<Segment> = Vec::new();
+        for [low, high] in places {
+            let (from, to) = (*low - RENEWED * width - plot.low, *high + RENEWED * width - plot.low);
+            near.clear();
+            let reach = RENEWED * width + FAR * width;
+            strand.for_each_near(Segment::new(*low, *high), reach, |_, segment| near.push(segment));
+            for row in plot.between(from.y, to.y, plot.rows) {
+                for column in plot.between(from.x, to.x, plot.columns) {
+                    let distance = &mut self.distance[row * plot.columns + column];
+                    if *distance >= 0.0 {
+                        *distance = distance_to(&near, plot.at(column, row), width);
+                    }
+                }
+            }
+        }
+    }
+}
+
 /// Looks for what the strand leaves bare of the core, the places where the middle of a bead may be: the inside of the plot.
 ///
 /// What lies farther out than the core is reached by a bead along the core's edge or by none, so nothing else can be bare.
 ///
 /// # Complexity
 /// O(points of the plot), and a look at the segments about each point that is bare.
-pub(crate) fn scan(core: &Core, strand: &SegmentIndex, width: f64, limit: f64) -> Scan {
-    let plot = &core.plot;
+pub(crate) fn scan(survey: &Survey<'_>, strand: &SegmentIndex, width: f64, limit: f64) -> Scan {
+    let (core, plot) = (survey.core, &survey.core.plot);
     let step = plot.step;
-    let nearest = Nearest::new(plot, strand.segments());
     let least = 0.5 * (width + limit);
     // The point nearest to a disc's middle is at most half a diagonal away from it.
     let suspicious = least - std::f64::consts::FRAC_1_SQRT_2 * step;
@@ -50,7 +87,7 @@ pub(crate) fn scan(core: &Core, strand: &SegmentIndex, width: f64, limit: f64) -
     let mut suspects: Vec<(f64, usize, usize)> = Vec::new();
     for &(row, first, last) in &plot.runs {
         for column in first..=last {
-            let distance = nearest.distance(column, row);
+            let distance = survey.distance[row * plot.columns + column];
             if distance > 0.5 * width {
                 found.bare += step * step;
             }

@@ -38,10 +38,15 @@ const TIP_APART: f64 = 0.45;
 /// Legs keep so far away from strand that is not beside their ends, in w.
 const LEG_APART: f64 = 0.1;
 
-/// Gives the curves a detour into each disc that has room for one; how many there are.
+/// Gives the curves a detour into each disc that has room for one, and tells where: the boxes round them.
 ///
 /// A detour takes no more than `wall_cut` (mm) out of a wall: there it is a spur.
-pub(crate) fn mended(curves: &mut [FillCurve], strand: &Strand, discs: &[BareDisc], wall_cut: f64) -> usize {
+pub(crate) fn mended(
+    curves: &mut [FillCurve],
+    strand: &Strand,
+    discs: &[BareDisc],
+    wall_cut: f64,
+) -> Vec<[DVec2; 2]> {
     let mut made: Vec<Detour> = Vec::new();
     for disc in discs {
         made.extend(strand.detour(disc, curves, wall_cut, &made));
@@ -54,7 +59,14 @@ pub(crate) fn mended(curves: &mut [FillCurve], strand: &Strand, discs: &[BareDis
             }
         }
     }
-    made.len()
+    made.iter()
+        .map(|detour| {
+            let [from, tip, to] = detour.corners;
+            // What it replaces lies within half its length of one of its ends.
+            let around = 0.5 * detour.taken;
+            [from.min(to).min(tip + around) - around, from.max(to).max(tip - around) + around]
+        })
+        .collect()
 }
 
 /// All strand, for questions of distance.

@@ -4,14 +4,14 @@ use argil_curve::{DVec2, self_crossings};
 use geo::Area;
 use geo_types::{LineString, MultiPolygon, Polygon};
 
-use crate::bare::{BareDisc, Scan, scan};
+use crate::bare::{BareDisc, Scan, Survey, scan};
 use crate::curve::FillCurve;
 use crate::detour::{Strand, mended};
 use crate::joint::Joint;
 use crate::merge::merge;
 use crate::offset::{dilation, rings};
 use crate::ring::Ring;
-use crate::rings::{Core, rings_of};
+use crate::rings::rings_of;
 use crate::{FillError, FillOptions};
 
 /// A filled region.
@@ -91,17 +91,20 @@ pub fn fill(
         if own.outline.0.is_empty() { 0.0 } else { dilation(&own.outline, 0.5 * w, w).unsigned_area() };
     let limit = options.bare * w;
     let mut strand = Strand::new(&curves, w, options.grid);
-    let mut found = scan_all(&own.cores, &strand, w, limit);
+    let mut surveys: Vec<Survey<'_>> =
+        own.cores.iter().map(|core| Survey::new(core, &strand.index)).collect();
+    let mut found = scan_all(&surveys, &strand, w, limit);
     let merged_only = (curves.clone(), found.clone());
     let mut detours = 0;
     for _ in 0..options.mending {
         let made = mended(&mut curves, &strand, &found.discs, options.wall_cut * w);
-        if made == 0 {
+        if made.is_empty() {
             break;
         }
-        detours += made;
+        detours += made.len();
         strand = Strand::new(&curves, w, options.grid);
-        found = scan_all(&own.cores, &strand, w, limit);
+        surveys.iter_mut().for_each(|survey| survey.renew(&made, &strand.index, w));
+        found = scan_all(&surveys, &strand, w, limit);
     }
     if detours > 0 && curves.iter().any(|curve| !self_crossings(&curve.points).is_empty()) {
         (curves, found) = merged_only;
@@ -134,10 +137,10 @@ fn with_rings_that_are_some(region: &MultiPolygon<f64>) -> MultiPolygon<f64> {
     )
 }
 
-fn scan_all(cores: &[Core], strand: &Strand, width: f64, limit: f64) -> Scan {
+fn scan_all(surveys: &[Survey<'_>], strand: &Strand, width: f64, limit: f64) -> Scan {
     let mut all = Scan::default();
-    for core in cores {
-        let own = scan(core, &strand.index, width, limit);
+    for survey in surveys {
+        let own = scan(survey, &strand.index, width, limit);
         all.bare += own.bare;
         all.discs.extend(own.discs);
     }

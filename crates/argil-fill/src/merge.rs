@@ -33,7 +33,7 @@ pub struct Merged {
 /// [`FillError::Option`] and [`FillError::Ring`].
 ///
 /// # Complexity
-/// O(places tried · log n) for n segments; at most 64 places for a pair of neighbours, all places every
+/// O(places tried · log n) for n segments; at most 32 places for a pair of neighbours, all places every
 /// fifth of a bead for those that are left.
 ///
 /// # Example
@@ -87,7 +87,7 @@ struct Tier {
 
 /// First few places, which do for nearly all rings; then all, and narrower joints for tiny rings and crowded places.
 const TIERS: [Tier; 5] = [
-    Tier { cut: 1.0, margin: 0.5, apart: 0.2, samples: 64 },
+    Tier { cut: 1.0, margin: 0.5, apart: 0.2, samples: 32 },
     Tier { cut: 1.0, margin: 0.5, apart: 0.2, samples: 100_000 },
     Tier { cut: 0.7, margin: 0.3, apart: 0.05, samples: 100_000 },
     Tier { cut: 0.45, margin: 0.1, apart: 0.05, samples: 100_000 },

@@ -1,6 +1,6 @@
 //! The nearest of many segments at every point of a grid.
 
-use argil_curve::Segment;
+use argil_curve::{DVec2, Segment};
 
 use crate::plot::Plot;
 
@@ -19,8 +19,15 @@ pub(crate) struct Nearest<'a> {
     /// For each point its distance, mm, and its site; outside of the plot the distance is negative.
     distance: Vec<f64>,
     site: Vec<u32>,
-    /// For each site one over its squared length.
-    scale: Vec<f64>,
+    lines: Vec<Line>,
+}
+
+/// A site as distances are measured from it, with one over its squared length.
+#[derive(Clone, Copy, Debug)]
+struct Line {
+    start: DVec2,
+    along: DVec2,
+    scale: f64,
 }
 
 /// Sites write to points within so many steps.
@@ -31,16 +38,17 @@ impl<'a> Nearest<'a> {
     /// O(points + sites · their length in steps).
     pub(crate) fn new(plot: &'a Plot, sites: &'a [Segment]) -> Self {
         let points = plot.columns * plot.rows;
-        let scale = |site: &Segment| {
-            let squared = (site.end - site.start).length_squared();
-            if squared > 0.0 { 1.0 / squared } else { 0.0 }
+        let line = |site: &Segment| {
+            let along = site.end - site.start;
+            let squared = along.length_squared();
+            Line { start: site.start, along, scale: if squared > 0.0 { 1.0 / squared } else { 0.0 } }
         };
         let mut nearest = Self {
             plot,
             sites,
             distance: vec![-1.0; points],
             site: vec![NONE; points],
-            scale: sites.iter().map(scale).collect(),
+            lines: sites.iter().map(line).collect(),
         };
         for &(row, first, last) in &plot.runs {
             let start = row * plot.columns;
@@ -65,11 +73,16 @@ impl<'a> Nearest<'a> {
         self.site[row * self.plot.columns + column]
     }
 
+    /// The distances of all points, row by row.
+    pub(crate) fn into_distances(self) -> Vec<f64> {
+        self.distance
+    }
+
     fn distance_to(&self, site: u32, column: usize, row: usize) -> f64 {
-        let segment = &self.sites[site as usize];
-        let (along, away) = (segment.end - segment.start, self.plot.at(column, row) - segment.start);
-        let t = (away.dot(along) * self.scale[site as usize]).clamp(0.0, 1.0);
-        (away - t * along).length()
+        let line = &self.lines[site as usize];
+        let away = self.plot.at(column, row) - line.start;
+        let t = (away.dot(line.along) * line.scale).clamp(0.0, 1.0);
+        (away - t * line.along).length()
     }
 
     fn seed(&mut self) {
@@ -126,7 +139,9 @@ impl<'a> Nearest<'a> {
                 self.ask(point, column, row, behind + column - 1, diagonal);
                 self.ask(point, column, row, behind + column + 1, diagonal);
                 self.ask(point, column, row, point - 1, side);
-                self.descend(point, column, row);
+                if !rising {
+                    self.descend(point, column, row);
+                }
             }
             for column in (first..=last).rev() {
                 let point = start + column;
@@ -174,7 +189,6 @@ pub(crate) fn extent(segment: &Segment, y: f64, reach: f64) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use argil_curve::DVec2;
 
     fn ring(corners: &[(f64, f64)]) -> Vec<Segment> {
         let at = |k: usize| DVec2::from(corners[k % corners.len()]);

@@ -21,7 +21,7 @@ const SLIGHT: f64 = 0.02;
 const LEAST_LENGTH: f64 = 0.5;
 
 /// How often finer than the plot loops are drawn.
-const FINER: usize = 2;
+const FINER: usize = 3;
 
 /// Loops for what the rings, which are the sites of `nearest`, leave bare.
 ///

@@ -23,7 +23,7 @@ const LEAST_LENGTH: f64 = 0.5;
 const PLAINER: f64 = 0.005;
 
 /// Distance of the points of a plot, in w: so much, or less down to so much for a plot of few points.
-const STEP: f64 = 0.15;
+const STEP: f64 = 0.2;
 const LEAST_STEP: f64 = 0.05;
 const FEW_POINTS: f64 = 3000.0;
 
@@ -122,9 +122,13 @@ fn inner_rings(part: &Core, options: &FillOptions) -> Vec<Ring> {
         plot.runs.iter().flat_map(|&(row, first, last)| (first - 1..=last).map(move |column| (column, row)));
     let corners_of = |column: usize, row: usize| {
         let corners = [(column, row), (column + 1, row), (column + 1, row + 1), (column, row + 1)];
-        let highest = corners.iter().map(|&(c, r)| nearest.distance(c, r)).fold(0.0, f64::max);
+        let (mut lowest, mut highest) = (f64::INFINITY, 0.0_f64);
+        for (column, row) in corners {
+            let distance = nearest.distance(column, row);
+            (lowest, highest) = (lowest.min(distance), highest.max(distance));
+        }
         let level = ((highest - slight) / w).floor() * w;
-        (level > 0.0).then(|| corners.map(|(column, row)| Spot { level, ..spot(column, row) }))
+        (level > 0.0 && lowest <= level + slight).then(|| corners.map(|(column, row)| Spot { level, ..spot(column, row) }))
     };
     let distance = |column, row| nearest.distance(column, row);
     let lines = contours(cells, nearest.sites, plot.step, slight, corners_of, distance);
