@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use argil_curve::{DVec2, Segment, SegmentIndex};
 
-use crate::nearest::Nearest;
+use crate::nearest::{Line, Nearest};
 use crate::rings::Core;
 
 /// A disc inside of the region that no bead touches.
@@ -33,6 +33,24 @@ const FARTHEST: f64 = 3.0;
 const LARGEST_STEP: f64 = 0.1;
 const SMALLEST_STEP: f64 = 0.01;
 
+/// It is no farther than this from where it is looked for, in w.
+const FARTHEST_RISE: f64 = 0.5;
+
+/// Eight directions.
+const AROUND: [DVec2; 8] = {
+    const D: f64 = std::f64::consts::FRAC_1_SQRT_2;
+    [
+        DVec2::X,
+        DVec2::new(D, D),
+        DVec2::Y,
+        DVec2::new(-D, D),
+        DVec2::NEG_X,
+        DVec2::new(-D, -D),
+        DVec2::NEG_Y,
+        DVec2::new(D, -D),
+    ]
+};
+
 /// Where strand has changed, points so far away are looked at again, in w.
 const RENEWED: f64 = 0.8;
 
@@ -53,12 +71,12 @@ impl<'a> Survey<'a> {
     /// Looks again at the points about places where the strand has changed, each from a low corner to a high one.
     pub(crate) fn renew(&mut self, places: &[[DVec2; 2]], strand: &SegmentIndex, width: f64) {
         let plot = &self.core.plot;
-        let mut near: Vec<Segment> = Vec::new();
+        let mut near: Vec<Line> = Vec::new();
         for [low, high] in places {
             let (from, to) = (*low - RENEWED * width - plot.low, *high + RENEWED * width - plot.low);
             near.clear();
             let reach = RENEWED * width + FAR * width;
-            strand.for_each_near(Segment::new(*low, *high), reach, |_, segment| near.push(segment));
+            strand.for_each_near(Segment::new(*low, *high), reach, |_, segment| near.push(Line::of(&segment)));
             for row in plot.between(from.y, to.y, plot.rows) {
                 for column in plot.between(from.x, to.x, plot.columns) {
                     let distance = &mut self.distance[row * plot.columns + column];
@@ -101,7 +119,7 @@ pub(crate) fn scan(survey: &Survey<'_>, strand: &SegmentIndex, width: f64, limit
     let mut chosen = Chosen { cell: width, ..Chosen::default() };
     // Whether the rise from a place leads to a disc that is wide enough.
     let mut leads: HashMap<(usize, usize), bool> = HashMap::with_capacity(suspects.len());
-    let mut near: Vec<Segment> = Vec::new();
+    let mut near: Vec<Line> = Vec::new();
     for (_, row, column) in suspects {
         let around = (row - 1..=row + 1).flat_map(|r| (column - 1..=column + 1).map(move |c| (r, c)));
         let mut higher = around.filter_map(|place| leads.get(&place)).copied().peekable();
@@ -116,7 +134,7 @@ pub(crate) fn scan(survey: &Survey<'_>, strand: &SegmentIndex, width: f64, limit
             continue;
         }
         near.clear();
-        strand.for_each_near(Segment::new(at, at), FAR * width, |_, segment| near.push(segment));
+        strand.for_each_near(Segment::new(at, at), FAR * width, |_, segment| near.push(Line::of(&segment)));
         let (centre, distance) = summit(at, &near, width, least);
         leads.insert((row, column), distance >= least);
         if distance >= least && holds(&core.sides, centre) {
@@ -170,19 +188,24 @@ impl Chosen {
 }
 
 /// Distance to the strand, at most [`FAR`].
-fn distance_to(strand: &[Segment], p: DVec2, width: f64) -> f64 {
-    strand.iter().map(|segment| segment.distance(p)).fold(FAR * width, f64::min)
+fn distance_to(strand: &[Line], p: DVec2, width: f64) -> f64 {
+    strand.iter().map(|line| line.square(p)).fold(FAR * width * FAR * width, f64::min).sqrt()
 }
 
-/// The place to which the distance from the strand rises, and that distance; it ends early where `least` cannot be reached.
-pub(crate) fn summit(from: DVec2, strand: &[Segment], width: f64, least: f64) -> (DVec2, f64) {
+/// The place to which the distance from the strand rises, not far away, and that distance; it ends early where `least` cannot be
+/// reached.
+pub(crate) fn summit(from: DVec2, strand: &[Line], width: f64, least: f64) -> (DVec2, f64) {
     let (mut at, mut best, mut step) = (from, distance_to(strand, from, width), LARGEST_STEP * width);
+    let reach = best + 2.0 * FARTHEST_RISE * width;
+    let near: Vec<Line> = strand.iter().filter(|line| line.square(from) <= reach * reach).copied().collect();
     while step >= SMALLEST_STEP * width && best + 2.0 * step > least {
-        let around =
-            (0..8).map(|k| at + step * DVec2::from_angle(f64::from(k) * std::f64::consts::FRAC_PI_4));
-        let highest = around.map(|p| (distance_to(strand, p, width), p)).max_by(|a, b| a.0.total_cmp(&b.0));
+        let around = AROUND.map(|towards| at + step * towards);
+        let highest =
+            around.map(|p| (distance_to(&near, p, width), p)).into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
         match highest {
-            Some((distance, p)) if distance > best + 1e-3 * step && p.distance(from) < 0.5 * width => {
+            Some((distance, p))
+                if distance > best + 1e-3 * step && p.distance(from) < FARTHEST_RISE * width =>
+            {
                 (best, at) = (distance, p);
             }
             _ => step *= 0.5,

@@ -29,6 +29,7 @@ mod residue;
 mod ring;
 mod rings;
 mod trace;
+mod tree;
 
 pub use argil_curve::DVec2;
 pub use bare::BareDisc;

@@ -7,6 +7,30 @@ use crate::plot::Plot;
 /// No segment: a point outside, or one that no segment reaches.
 pub(crate) const NONE: u32 = u32::MAX;
 
+/// A segment as distances are measured from it many times, with one over its squared length.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Line {
+    start: DVec2,
+    along: DVec2,
+    scale: f64,
+}
+
+impl Line {
+    pub(crate) fn of(segment: &Segment) -> Self {
+        let along = segment.end - segment.start;
+        let squared = along.length_squared();
+        Self { start: segment.start, along, scale: if squared > 0.0 { 1.0 / squared } else { 0.0 } }
+    }
+
+    /// The square of the distance from `p`.
+    #[inline]
+    pub(crate) fn square(&self, p: DVec2) -> f64 {
+        let away = p - self.start;
+        let t = (away.dot(self.along) * self.scale).clamp(0.0, 1.0);
+        (away - t * self.along).length_squared()
+    }
+}
+
 /// The nearest segment, its site, at each point inside of a plot.
 ///
 /// Sites write themselves to the points next to them, and points pass on to their neighbours what is nearest to them, in four sweeps
@@ -22,14 +46,6 @@ pub(crate) struct Nearest<'a> {
     lines: Vec<Line>,
 }
 
-/// A site as distances are measured from it, with one over its squared length.
-#[derive(Clone, Copy, Debug)]
-struct Line {
-    start: DVec2,
-    along: DVec2,
-    scale: f64,
-}
-
 /// Sites write to points within so many steps.
 const SEED: f64 = 1.5;
 
@@ -38,17 +54,12 @@ impl<'a> Nearest<'a> {
     /// O(points + sites · their length in steps).
     pub(crate) fn new(plot: &'a Plot, sites: &'a [Segment]) -> Self {
         let points = plot.columns * plot.rows;
-        let line = |site: &Segment| {
-            let along = site.end - site.start;
-            let squared = along.length_squared();
-            Line { start: site.start, along, scale: if squared > 0.0 { 1.0 / squared } else { 0.0 } }
-        };
         let mut nearest = Self {
             plot,
             sites,
             distance: vec![-1.0; points],
             site: vec![NONE; points],
-            lines: sites.iter().map(line).collect(),
+            lines: sites.iter().map(Line::of).collect(),
         };
         for &(row, first, last) in &plot.runs {
             let start = row * plot.columns;
@@ -79,10 +90,7 @@ impl<'a> Nearest<'a> {
     }
 
     fn distance_to(&self, site: u32, column: usize, row: usize) -> f64 {
-        let line = &self.lines[site as usize];
-        let away = self.plot.at(column, row) - line.start;
-        let t = (away.dot(line.along) * line.scale).clamp(0.0, 1.0);
-        (away - t * line.along).length()
+        self.lines[site as usize].square(self.plot.at(column, row)).sqrt()
     }
 
     fn seed(&mut self) {

@@ -1,11 +1,11 @@
 //! Strips that stay bare between rings, and the loops there and back that fill them.
 
-use argil_curve::{DVec2, Segment};
+use argil_curve::DVec2;
 
 use crate::FillOptions;
 use crate::bare::summit;
 use crate::contour::{Spot, contours};
-use crate::nearest::{NONE, Nearest};
+use crate::nearest::{Line, NONE, Nearest};
 use crate::ring::ring_on_grid;
 
 /// The loop runs inside of its part by this share of the part's width, and by at most so much in w: both lanes then lie as far
@@ -120,7 +120,7 @@ impl<'a> Parts<'a> {
         let mut near: Vec<u32> = within(nearest, column, row, 3).collect();
         near.sort_unstable();
         near.dedup();
-        let near: Vec<Segment> = near.into_iter().map(|site| nearest.sites[site as usize]).collect();
+        let near: Vec<Line> = near.into_iter().map(|site| Line::of(&nearest.sites[site as usize])).collect();
         let (_, distance) = summit(nearest.plot.at(column, row), &near, w, 0.5 * w);
         let diameter = 2.0 * distance - w;
         if diameter < options.residue * w {

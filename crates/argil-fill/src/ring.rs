@@ -73,6 +73,8 @@ pub(crate) struct Track {
     pub(crate) curve: ClosedCurve,
     pub(crate) index: SegmentIndex,
     pub(crate) wall: Option<usize>,
+    low: DVec2,
+    high: DVec2,
 }
 
 /// A place on a track.
@@ -89,7 +91,10 @@ impl Track {
             .filter(|curve| curve.segment_count() > 2)
             .ok_or(FillError::Ring { ring: number })?;
         let index = SegmentIndex::of_curves([&curve], width);
-        Ok(Self { curve, index, wall: ring.wall })
+        let points = curve.points().iter();
+        let (low, high) = points
+            .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)));
+        Ok(Self { curve, index, wall: ring.wall, low, high })
     }
 
     pub(crate) fn place(&self, arc: f64) -> Place {
@@ -110,5 +115,9 @@ impl Track {
     /// Direction at an arc, as the chord over `step` to either side.
     pub(crate) fn heading(&self, arc: f64, step: f64) -> DVec2 {
         (self.curve.point_at(arc + step) - self.curve.point_at(arc - step)).normalize_or_zero()
+    }
+    /// Whether the boxes come within `reach` of each other.
+    pub(crate) fn may_reach(&self, other: &Self, reach: f64) -> bool {
+        (self.low - reach).cmple(other.high).all() && (other.low - reach).cmple(self.high).all()
     }
 }
