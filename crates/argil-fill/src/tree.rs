@@ -75,8 +75,8 @@ pub(crate) struct Tree<'a> {
 
 impl<'a> Tree<'a> {
     pub(crate) fn new(tracks: &'a [Track], options: &'a FillOptions) -> Self {
-        // A query within reach then looks at few cells.
-        let cell = 1.01 * options.reach * options.width;
+        // A query of the first tier then looks at few cells.
+        let cell = 1.5 * options.width;
         let index = SegmentIndex::of_curves(tracks.iter().map(|track| &track.curve), cell);
         let owner = tracks
             .iter()
