@@ -1,6 +1,6 @@
 //! A region to closed curves of beads.
 
-use argil_curve::{DVec2, self_crossings};
+use argil_curve::{DVec2, SegmentIndex, self_crossings};
 use geo::Area;
 use geo_types::{LineString, MultiPolygon, Polygon};
 
@@ -8,10 +8,11 @@ use crate::bare::{BareDisc, Scan, Survey, scan};
 use crate::curve::FillCurve;
 use crate::detour::{Strand, mended};
 use crate::joint::Joint;
-use crate::merge::merge;
+use crate::merge::merge_within;
 use crate::offset::{dilation, rings};
-use crate::ring::Ring;
-use crate::rings::rings_of;
+use crate::ring::{Ring, perimeter};
+use crate::rings::{rings_of, sides_of};
+use crate::tree::Fence;
 use crate::{FillError, FillOptions};
 
 /// A filled region.
@@ -48,10 +49,13 @@ pub struct Figures {
 const FARTHEST: f64 = 1e6;
 const FARTHEST_STEPS: f64 = 1e9;
 
+/// A ring that finds no joint is left out if it is shorter than this, in w.
+const LONGEST_BLOB: f64 = 4.0;
+
 /// Fills a region with beads one width apart, joined to as few closed curves as possible.
 ///
 /// The region's boundary is inset by (k + ½) w for every k, every strip that stays bare gets a loop there and back, and
-/// all rings are [merged](merge). Where a disc stays bare, the nearest strand that is no wall makes a detour into it.
+/// all rings are [merged](crate::merge). Where a disc stays bare, the nearest strand that is no wall makes a detour into it.
 ///
 /// `beside` are rings that exist already next to the region, such as the walls round it. They are merged with the fill and
 /// stay as they are but for the joints. `avoid` are places to keep joints away from, such as [`Joint::middle`] of
@@ -82,10 +86,24 @@ pub fn fill(
     options.check()?;
     check_coordinates(region, options)?;
     let w = options.width;
-    let own = rings_of(&with_rings_that_are_some(region), options)?;
+    let region = with_rings_that_are_some(region);
+    let own = rings_of(&region, options)?;
     let mut all = beside.to_vec();
     all.extend(own.rings);
-    let merged = merge(&all, options, avoid)?;
+    // A joint from part to part of the region would lay clay outside.
+    let edges = region.iter().flat_map(sides_of).collect();
+    let fence = Fence { index: SegmentIndex::new(edges, w), first: beside.len() };
+    let mut merged = merge_within(&all, options, avoid, Some(&fence))?;
+    // A blob without room for a joint is left to mending.
+    let lonely = lonely_blobs(&all[beside.len()..], beside.len(), &merged.joints, w);
+    if !lonely.is_empty() {
+        let mut number = 0;
+        all.retain(|_| {
+            number += 1;
+            lonely.binary_search(&(number - 1)).is_err()
+        });
+        merged = merge_within(&all, options, avoid, Some(&fence))?;
+    }
     let mut curves = merged.curves;
     let reachable =
         if own.outline.0.is_empty() { 0.0 } else { dilation(&own.outline, 0.5 * w, w).unsigned_area() };
@@ -112,7 +130,7 @@ pub fn fill(
     }
     let length: f64 = curves.iter().map(FillCurve::length).sum();
     // Rings that were given lie beside the region, and their clay with them.
-    let laid = (length - beside.iter().map(|ring| crate::ring::perimeter(&ring.points)).sum::<f64>()) * w;
+    let laid = (length - beside.iter().map(|ring| perimeter(&ring.points)).sum::<f64>()) * w;
     let figures = Figures {
         rings: all.len(),
         detours,
@@ -122,6 +140,16 @@ pub fn fill(
         overdeposit: if laid > 0.0 { 1.0 - (reachable - found.bare) / laid } else { 0.0 },
     };
     Ok(Fill { curves, joints: merged.joints, bare: found.discs, figures })
+}
+
+/// Rings that are part of no wall, short and joined to nothing, by their numbers, the first of which is `first`.
+fn lonely_blobs(own: &[Ring], first: usize, joints: &[Joint], width: f64) -> Vec<usize> {
+    let mut joined = vec![false; own.len()];
+    for ring in joints.iter().flat_map(|joint| joint.rings).filter(|&ring| ring >= first) {
+        joined[ring - first] = true;
+    }
+    let is_blob = |ring: &Ring| ring.wall.is_none() && perimeter(&ring.points) < LONGEST_BLOB * width;
+    (0..own.len()).filter(|&k| !joined[k] && is_blob(&own[k])).map(|k| first + k).collect()
 }
 
 /// The region without rings of fewer than three corners, which the polygon kernel does not expect.

@@ -5,7 +5,7 @@ use argil_curve::DVec2;
 use crate::joint::Joint;
 use crate::ring::{Ring, Track};
 use crate::trace::traced;
-use crate::tree::{Tier, Tree};
+use crate::tree::{Fence, Tier, Tree};
 use crate::{FillCurve, FillError, FillOptions};
 
 /// Curves and the joints that made them.
@@ -45,13 +45,23 @@ pub struct Merged {
 /// # Ok::<(), argil_fill::FillError>(())
 /// ```
 pub fn merge(rings: &[Ring], options: &FillOptions, avoid: &[DVec2]) -> Result<Merged, FillError> {
+    merge_within(rings, options, avoid, None)
+}
+
+/// Merges rings as [`merge`] does, with joints inside of a fence between those that have one.
+pub(crate) fn merge_within(
+    rings: &[Ring],
+    options: &FillOptions,
+    avoid: &[DVec2],
+    fence: Option<&Fence>,
+) -> Result<Merged, FillError> {
     options.check()?;
     let tracks = rings
         .iter()
         .enumerate()
         .map(|(number, ring)| Track::new(number, ring, options.width))
         .collect::<Result<Vec<_>, _>>()?;
-    let mut tree = Tree::new(&tracks, options);
+    let mut tree = Tree::new(&tracks, options, fence);
     for tier in TIERS {
         tree.grow(tier, avoid);
     }

@@ -98,12 +98,16 @@ pub(crate) fn rings_of(region: &MultiPolygon<f64>, options: &FillOptions) -> Res
 
 /// A polygon with a grid of points.
 fn plotted(polygon: &Polygon<f64>, width: f64) -> Result<Option<Core>, FillError> {
-    let corner = |c: Coord<f64>| DVec2::new(c.x, c.y);
-    let lines = rings(polygon).flat_map(|ring| ring.lines());
-    let sides: Vec<Segment> =
-        lines.map(|line| Segment::new(corner(line.start), corner(line.end))).collect();
+    let sides = sides_of(polygon);
     let step = (polygon.unsigned_area() / FEW_POINTS).sqrt().clamp(LEAST_STEP * width, STEP * width);
     Ok(Plot::new(&sides, step)?.map(|plot| Core { sides, plot }))
+}
+
+/// The sides of a polygon and of its holes.
+pub(crate) fn sides_of(polygon: &Polygon<f64>) -> Vec<Segment> {
+    let corner = |c: Coord<f64>| DVec2::new(c.x, c.y);
+    let lines = rings(polygon).flat_map(|ring| ring.lines());
+    lines.map(|line| Segment::new(corner(line.start), corner(line.end))).collect()
 }
 
 /// The rings inside of a ring's path, one width apart.

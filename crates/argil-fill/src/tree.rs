@@ -57,10 +57,17 @@ impl Ord for Open {
     }
 }
 
+/// What joints must not cross, and the first of the rings to which that applies.
+pub(crate) struct Fence {
+    pub(crate) index: SegmentIndex,
+    pub(crate) first: usize,
+}
+
 /// The tree of joints as it grows.
 pub(crate) struct Tree<'a> {
     tracks: &'a [Track],
     options: &'a FillOptions,
+    fence: Option<&'a Fence>,
     /// All segments of all tracks, and whose they are.
     index: SegmentIndex,
     owner: Vec<usize>,
@@ -74,7 +81,7 @@ pub(crate) struct Tree<'a> {
 }
 
 impl<'a> Tree<'a> {
-    pub(crate) fn new(tracks: &'a [Track], options: &'a FillOptions) -> Self {
+    pub(crate) fn new(tracks: &'a [Track], options: &'a FillOptions, fence: Option<&'a Fence>) -> Self {
         // A query of the first tier then looks at few cells.
         let cell = 1.5 * options.width;
         let index = SegmentIndex::of_curves(tracks.iter().map(|track| &track.curve), cell);
@@ -94,6 +101,7 @@ impl<'a> Tree<'a> {
         Self {
             tracks,
             options,
+            fence,
             index,
             owner,
             first_segment,
@@ -232,7 +240,18 @@ impl<'a> Tree<'a> {
         let [first, second] = candidate.legs;
         candidate.tracks.into_iter().zip(candidate.cuts).all(|(track, cut)| free(track, cut))
             && !shortened(first).crosses(&shortened(second))
-            && candidate.legs.iter().all(|leg| self.is_clear(*leg, candidate.tracks, tier.apart * w))
+            && candidate.legs.iter().all(|leg| {
+                self.is_inside(*leg, candidate.tracks) && self.is_clear(*leg, candidate.tracks, tier.apart * w)
+            })
+    }
+
+    /// Whether a leg crosses no fence.
+    fn is_inside(&self, leg: Segment, joins: [usize; 2]) -> bool {
+        let mut inside = true;
+        if let Some(fence) = self.fence.filter(|fence| joins.iter().all(|&track| track >= fence.first)) {
+            fence.index.for_each_near(leg, 0.0, |_, side| inside &= !leg.crosses(&side));
+        }
+        inside
     }
 
     /// Whether a leg crosses no ring and keeps away from all other legs, and from rings that it does not join.

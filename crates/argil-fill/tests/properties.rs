@@ -8,7 +8,7 @@ use geo::{Buffer, Distance, Euclidean, MapCoords, Point};
 use geo_types::{Coord, LineString, MultiPolygon};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use shapes::{annulus, disc, region, strip};
+use shapes::{annulus, disc, region, share_of_strips, strip, wide};
 
 const WIDTH: f64 = 1.5;
 
@@ -40,11 +40,16 @@ fn departure(region: &MultiPolygon<f64>, fill: &Fill) -> Result<(), String> {
     for curve in &fill.curves {
         hold(curve.points.len() == curve.beads.len(), "a stretch has no role")?;
         hold(self_crossings(&curve.points).is_empty(), "a curve crosses itself")?;
+        let edges = rings(region).flat_map(LineString::lines);
+        let edges = edges.map(|l| Segment::new(DVec2::new(l.start.x, l.start.y), DVec2::new(l.end.x, l.end.y)));
+        let edges = SegmentIndex::new(edges.collect(), WIDTH);
         let index = SegmentIndex::new(earlier.clone(), WIDTH);
         for side in sides(&curve.points) {
             let mut crosses = false;
             index.for_each_near(side, 0.0, |_, other| crosses |= side.crosses(&other));
             hold(!crosses, "two curves cross")?;
+            edges.for_each_near(side, 0.0, |_, edge| crosses |= side.crosses(&edge));
+            hold(!crosses, "a curve leaves the region")?;
         }
         earlier.extend(sides(&curve.points));
         for &p in &curve.points {
@@ -81,19 +86,40 @@ fn missed(region: &MultiPolygon<f64>, fill: &Fill) -> f64 {
     if total > 0.0 { missed / total } else { 0.0 }
 }
 
+/// More regions than usual are drawn with `ARGIL_CASES`.
+fn cases() -> u32 {
+    std::env::var("ARGIL_CASES").ok().and_then(|count| count.parse().ok()).unwrap_or(32)
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 16, rng_seed: RngSeed::Fixed(1), failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: cases(), rng_seed: RngSeed::Fixed(1), failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn any_region_is_filled(region in region()) {
         let fill = filled(&region);
         prop_assert_eq!(departure(&region, &fill), Ok(()));
         prop_assert!(missed(&region, &fill) <= 0.002, "{} of the walls missed", missed(&region, &fill));
-        // A strip just under 2.4 beads wide stays bare along its middle: 0.4 of 2.4.
-        prop_assert!(fill.figures.coverage >= 0.83, "{:?}", fill.figures);
-        // Where three strips meet, discs of up to 1.08 beads were found bare.
-        prop_assert!(fill.bare.iter().all(|disc| disc.diameter < 1.1 * WIDTH), "{:?}", fill.bare);
+        prop_assert!(fill.bare.iter().all(|disc| disc.diameter <= 0.55 * WIDTH), "{:?}", fill.bare);
         prop_assert!(fill.curves.len() <= region.buffer(-0.53 * WIDTH).0.len().max(1));
+        // A strip has an even number of lanes: up to 0.4 of 2.4 beads stay bare there, or up to 0.36 of the clay is double;
+        // half of it where two lanes lie in a strip one bead wide.
+        let thin = share_of_strips(&region, 0.0, 2.0 * WIDTH);
+        let odd = share_of_strips(&region, 2.0 * WIDTH, 3.3 * WIDTH);
+        let shares = (thin, odd);
+        prop_assert!(fill.figures.coverage >= 0.97 - 0.17 * odd, "{shares:?}: {:?}", fill.figures);
+        let most = 0.16 + 0.5 * thin + 0.36 * odd;
+        prop_assert!(fill.figures.overdeposit <= most, "{shares:?}: {:?}", fill.figures);
+    }
+
+    #[test]
+    fn wide_regions_are_covered_once(region in wide()) {
+        let fill = filled(&region);
+        prop_assert_eq!(departure(&region, &fill), Ok(()));
+        prop_assert_eq!(fill.curves.len(), 1);
+        // What the joint at the wall, the middle and the corners cost shrinks no faster than the perimeter.
+        let (least, most) = if fill.figures.reachable > (13.0 * WIDTH).powi(2) { (0.985, 0.03) } else { (0.975, 0.08) };
+        prop_assert!(fill.figures.coverage >= least, "{:?}", fill.figures);
+        prop_assert!(fill.figures.overdeposit <= most, "{:?}", fill.figures);
     }
 
     #[test]
