@@ -76,7 +76,8 @@ impl<'a> Survey<'a> {
             let (from, to) = (*low - RENEWED * width - plot.low, *high + RENEWED * width - plot.low);
             near.clear();
             let reach = RENEWED * width + FAR * width;
-            strand.for_each_near(Segment::new(*low, *high), reach, |_, segment| near.push(Line::of(&segment)));
+            strand
+                .for_each_near(Segment::new(*low, *high), reach, |_, segment| near.push(Line::of(&segment)));
             for row in plot.between(from.y, to.y, plot.rows) {
                 for column in plot.between(from.x, to.x, plot.columns) {
                     let distance = &mut self.distance[row * plot.columns + column];
@@ -215,7 +216,7 @@ pub(crate) fn summit(from: DVec2, strand: &[Line], width: f64, least: f64) -> (D
 }
 
 /// Whether the point lies inside by the even-odd rule.
-fn holds(sides: &[Segment], p: DVec2) -> bool {
+pub(crate) fn holds(sides: &[Segment], p: DVec2) -> bool {
     sides.iter().fold(false, |inside, side| {
         let (from, to) = (side.start, side.end);
         let straddles = (from.y > p.y) != (to.y > p.y);

@@ -87,12 +87,12 @@ pub fn fill(
     check_coordinates(region, options)?;
     let w = options.width;
     let region = with_rings_that_are_some(region);
-    let own = rings_of(&region, options)?;
-    let mut all = beside.to_vec();
-    all.extend(own.rings);
     // A joint from part to part of the region would lay clay outside.
     let edges = region.iter().flat_map(sides_of).collect();
     let fence = Fence { index: SegmentIndex::new(edges, w), first: beside.len() };
+    let own = rings_of(&region, &fence.index, options)?;
+    let mut all = beside.to_vec();
+    all.extend(own.rings);
     let mut merged = merge_within(&all, options, avoid, Some(&fence))?;
     // A blob without room for a joint is left to mending.
     let lonely = lonely_blobs(&all[beside.len()..], beside.len(), &merged.joints, w);

@@ -92,12 +92,7 @@ impl Search<'_> {
     }
 
     /// The joint between a place on one track and the nearest one on another, if it does not lean too much.
-    pub(crate) fn sketch(
-        &self,
-        tracks: [usize; 2],
-        first: &Track,
-        [from, to]: [Place; 2],
-    ) -> Option<Sketch> {
+    pub(crate) fn sketch(&self, tracks: [usize; 2], first: &Track, [from, to]: [Place; 2]) -> Option<Sketch> {
         let w = self.width;
         let axis = to.at - from.at;
         let distance = axis.length();

@@ -124,9 +124,7 @@ impl<'a> Nearest<'a> {
     fn ask(&mut self, point: usize, column: usize, row: usize, neighbour: usize, apart: f64) {
         let site = self.site[neighbour];
         // What is nearest to the neighbour is no nearer to this point than this.
-        if site != self.site[point]
-            && site != NONE
-            && self.distance[neighbour] - apart < self.distance[point]
+        if site != self.site[point] && site != NONE && self.distance[neighbour] - apart < self.distance[point]
         {
             self.take(point, column, row, site);
         }

@@ -181,9 +181,10 @@ impl<'a> Fine<'a> {
 
     /// The low corners of all cells, row by row for each point of the plot.
     fn cells(&self) -> impl Iterator<Item = (usize, usize)> {
-        let drawn = self.parts.points.iter().filter(|&&(column, row)| {
-            self.begins[row * self.parts.nearest.plot.columns + column] != NONE
-        });
+        let drawn =
+            self.parts.points.iter().filter(|&&(column, row)| {
+                self.begins[row * self.parts.nearest.plot.columns + column] != NONE
+            });
         drawn.flat_map(|&(column, row)| {
             (0..FINER * FINER).map(move |k| (FINER * column + k % FINER, FINER * row + k / FINER))
         })

@@ -92,8 +92,8 @@ impl Track {
             .ok_or(FillError::Ring { ring: number })?;
         let index = SegmentIndex::of_curves([&curve], width);
         let points = curve.points().iter();
-        let (low, high) = points
-            .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)));
+        let (low, high) =
+            points.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)));
         Ok(Self { curve, index, wall: ring.wall, low, high })
     }
 

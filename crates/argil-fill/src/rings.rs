@@ -1,9 +1,10 @@
 //! The rings of a region: its boundary inset by (k + ½) w, level by level, and what stays bare between them.
 
-use argil_curve::{DVec2, Segment};
+use argil_curve::{DVec2, Segment, SegmentIndex};
 use geo::Area;
 use geo_types::{Coord, MultiPolygon, Polygon};
 
+use crate::bare::holds;
 use crate::contour::{Spot, contours};
 use crate::nearest::Nearest;
 use crate::offset::{opened_inset, rings};
@@ -15,6 +16,9 @@ use crate::{FillError, FillOptions};
 
 /// Radius of the disc that fits everywhere into what a ring goes round, in w: what is thinner would cross itself once it is simplified.
 const SLIGHT: f64 = 0.02;
+
+/// Paths so near to the edge of their region, in w, are no insets by half a bead.
+const WHOLE: f64 = 0.45;
 
 /// Rings shorter than this are blobs, in w.
 const LEAST_LENGTH: f64 = 0.5;
@@ -50,9 +54,19 @@ pub(crate) struct Rings {
 ///
 /// # Complexity
 /// Two offsets a wall, and for what is inside near linear in its area.
-pub(crate) fn rings_of(region: &MultiPolygon<f64>, options: &FillOptions) -> Result<Rings, FillError> {
+pub(crate) fn rings_of(
+    region: &MultiPolygon<f64>,
+    edges: &SegmentIndex,
+    options: &FillOptions,
+) -> Result<Rings, FillError> {
     let w = options.width;
-    let outline = opened_inset(region, 0.5 * w, SLIGHT * w, w);
+    let mut outline = opened_inset(region, 0.5 * w, SLIGHT * w, w);
+    // The kernel leaves scraps at sharp corners of what is smaller than the offset.
+    outline.0.retain(|polygon| {
+        let sides = sides_of(polygon);
+        sides.iter().all(|side| !edges.is_within(side.start, WHOLE * w))
+            && sides.first().is_some_and(|side| holds(edges.segments(), side.start))
+    });
     let mut found: Vec<Ring> = Vec::new();
     let mut innermost = outline.clone();
     for number in 0..options.walls.max(1) {
@@ -64,7 +78,8 @@ pub(crate) fn rings_of(region: &MultiPolygon<f64>, options: &FillOptions) -> Res
             break;
         }
         // A wall's rings are wanted however short; they too are dropped below three points.
-        let (wall, least) = if number < options.walls { (Some(number), 0.0) } else { (None, LEAST_LENGTH * w) };
+        let (wall, least) =
+            if number < options.walls { (Some(number), 0.0) } else { (None, LEAST_LENGTH * w) };
         let round = innermost.iter().flat_map(|polygon| rings_round(polygon, w, options.grid, least));
         found.extend(round.map(|points| Ring { points, wall }));
         if found.len() > MOST_RINGS {
@@ -132,7 +147,8 @@ fn inner_rings(part: &Core, options: &FillOptions) -> Vec<Ring> {
             (lowest, highest) = (lowest.min(distance), highest.max(distance));
         }
         let level = ((highest - slight) / w).floor() * w;
-        (level > 0.0 && lowest <= level + slight).then(|| corners.map(|(column, row)| Spot { level, ..spot(column, row) }))
+        (level > 0.0 && lowest <= level + slight)
+            .then(|| corners.map(|(column, row)| Spot { level, ..spot(column, row) }))
     };
     let distance = |column, row| nearest.distance(column, row);
     let lines = contours(cells, nearest.sites, plot.step, slight, corners_of, distance);

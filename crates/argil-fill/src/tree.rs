@@ -177,7 +177,9 @@ impl<'a> Tree<'a> {
         let parts: Vec<usize> = (0..self.tracks.len()).map(|track| self.part(track)).collect();
         let mut sketches = Vec::new();
         for (track, own) in self.tracks.iter().enumerate() {
-            let reaches = |other: &usize| parts[*other] != parts[track] && own.may_reach(&self.tracks[*other], search.reach);
+            let reaches = |other: &usize| {
+                parts[*other] != parts[track] && own.may_reach(&self.tracks[*other], search.reach)
+            };
             if (0..self.tracks.len()).any(|other| reaches(&other)) {
                 self.sketch(track, &parts, search, &mut sketches);
             }
@@ -221,7 +223,8 @@ impl<'a> Tree<'a> {
             });
             near.sort_unstable_by_key(|(other, _)| *other);
             sketches.extend(near.iter().filter_map(|&(other, nearest)| {
-                let to = self.tracks[other].place_on(nearest.index - self.first_segment[other], nearest.point);
+                let to =
+                    self.tracks[other].place_on(nearest.index - self.first_segment[other], nearest.point);
                 search.sketch([track, other], own, [from, to])
             }));
         }
@@ -241,7 +244,8 @@ impl<'a> Tree<'a> {
         candidate.tracks.into_iter().zip(candidate.cuts).all(|(track, cut)| free(track, cut))
             && !shortened(first).crosses(&shortened(second))
             && candidate.legs.iter().all(|leg| {
-                self.is_inside(*leg, candidate.tracks) && self.is_clear(*leg, candidate.tracks, tier.apart * w)
+                self.is_inside(*leg, candidate.tracks)
+                    && self.is_clear(*leg, candidate.tracks, tier.apart * w)
             })
     }
 
@@ -257,10 +261,17 @@ impl<'a> Tree<'a> {
     /// Whether a leg crosses no ring and keeps away from all other legs, and from rings that it does not join.
     fn is_clear(&self, leg: Segment, joins: [usize; 2], apart: f64) -> bool {
         let inner = shortened(leg);
+        let touching = 2.0 * self.options.grid;
         let mut clear = true;
-        self.index.for_each_near(inner, apart, |segment, side| {
+        self.index.for_each_near(leg, apart, |segment, side| {
             let joined = joins.contains(&self.owner[segment]);
-            clear &= if joined { !inner.crosses(&side) } else { keeps_apart(&inner, &side, apart) };
+            // A tip lies on its ring, up to rounding.
+            let touches = [leg.start, leg.end].iter().any(|&tip| side.is_within(tip, touching));
+            clear &= if joined {
+                !(if touches { inner } else { leg }).crosses(&side)
+            } else {
+                keeps_apart(&inner, &side, apart)
+            };
         });
         clear && self.taken.iter().flat_map(|c| c.legs).all(|other| keeps_apart(&inner, &other, apart))
     }
