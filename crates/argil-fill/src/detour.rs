@@ -279,5 +279,6 @@ fn replaced(curve: &FillCurve, closed: &ClosedCurve, mut detours: Vec<Detour>) -
         }
     }
     result.close();
+    result.flow = vec![1.0; result.points.len()];
     result
 }

@@ -7,6 +7,7 @@ use geo_types::{LineString, MultiPolygon, Polygon};
 use crate::bare::{BareDisc, Scan, Survey, scan};
 use crate::curve::FillCurve;
 use crate::detour::{Strand, mended};
+use crate::flow::{Laid, follow_room};
 use crate::joint::Joint;
 use crate::merge::merge_within;
 use crate::offset::{dilation, rings};
@@ -22,7 +23,7 @@ pub struct Fill {
     pub curves: Vec<FillCurve>,
     /// The joints that made them.
     pub joints: Vec<Joint>,
-    /// Bare discs wider than [`FillOptions::bare`] that no detour could mend, widest first.
+    /// Bare discs wider than [`FillOptions::bare`] that no detour could mend, widest first, between beads of full width.
     pub bare: Vec<BareDisc>,
     /// What was reached.
     pub figures: Figures,
@@ -108,6 +109,8 @@ pub fn fill(
     let reachable =
         if own.outline.0.is_empty() { 0.0 } else { dilation(&own.outline, 0.5 * w, w).unsigned_area() };
     let limit = options.bare * w;
+    // What is narrower than a residue loop's strip stays bare as the option has it.
+    let mended_from = limit.max(options.residue * w);
     let mut strand = Strand::new(&curves, w, options.grid);
     let mut surveys: Vec<Survey<'_>> =
         own.cores.iter().map(|core| Survey::new(core, &strand.index)).collect();
@@ -115,7 +118,8 @@ pub fn fill(
     let merged_only = (curves.clone(), found.clone());
     let mut detours = 0;
     for _ in 0..options.mending {
-        let made = mended(&mut curves, &strand, &found.discs, options.wall_cut * w);
+        let wide = found.discs.partition_point(|disc| disc.diameter > mended_from);
+        let made = mended(&mut curves, &strand, &found.discs[..wide], options.wall_cut * w);
         if made.is_empty() {
             break;
         }
@@ -129,15 +133,19 @@ pub fn fill(
         detours = 0;
     }
     let length: f64 = curves.iter().map(FillCurve::length).sum();
+    let all_laid = match options.flow {
+        Some(limits) => follow_room(&mut curves, &own.cores, w, limits)?,
+        None => Laid { bare: found.bare, beads: length * w },
+    };
     // Rings that were given lie beside the region, and their clay with them.
-    let laid = (length - beside.iter().map(|ring| perimeter(&ring.points)).sum::<f64>()) * w;
+    let laid = all_laid.beads - beside.iter().map(|ring| perimeter(&ring.points)).sum::<f64>() * w;
     let figures = Figures {
         rings: all.len(),
         detours,
         length,
         reachable,
-        coverage: if reachable > 0.0 { 1.0 - found.bare / reachable } else { 1.0 },
-        overdeposit: if laid > 0.0 { 1.0 - (reachable - found.bare) / laid } else { 0.0 },
+        coverage: if reachable > 0.0 { 1.0 - all_laid.bare / reachable } else { 1.0 },
+        overdeposit: if laid > 0.0 { 1.0 - (reachable - all_laid.bare) / laid } else { 0.0 },
     };
     Ok(Fill { curves, joints: merged.joints, bare: found.discs, figures })
 }
