@@ -24,7 +24,8 @@ pub struct FillOptions {
     /// Rounds of mending; 0 mends nothing.
     pub mending: usize,
     /// The narrowest and the widest bead, in w, where beads follow the room that they have: [`FillCurve::flow`](crate::FillCurve::flow) and
-    /// the figures then say what is laid. From 0.75 to 1.33 two lanes fill strips of 1.5 to 2.67 w. `None` for one width everywhere.
+    /// the figures then say what is laid. From 0.75 to 1.33 a strip of three beads that has four lanes, none of them a wall, has hardly
+    /// more clay than room. `None` for one width everywhere.
     pub flow: Option<[f64; 2]>,
     /// Step of the output coordinates, mm.
     pub grid: f64,

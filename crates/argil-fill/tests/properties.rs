@@ -124,6 +124,29 @@ proptest! {
     }
 
     #[test]
+    fn flow_doubles_less(region in region()) {
+        let constant = filled(&region);
+        let limits = [0.75, 1.33];
+        let flowing = fill(&region, &[], &FillOptions { flow: Some(limits), ..options() }, &[]);
+        let flowing = flowing.expect("a region of finite size has a fill");
+        prop_assert_eq!(&constant.joints, &flowing.joints, "flow moves nothing");
+        let mut laid = 0.0;
+        for (before, curve) in constant.curves.iter().zip(&flowing.curves) {
+            prop_assert_eq!((&before.points, &before.beads), (&curve.points, &curve.beads));
+            prop_assert!(before.flow.iter().all(|&flow| flow == 1.0));
+            prop_assert_eq!(curve.flow.len(), curve.points.len());
+            for ((side, bead), &flow) in sides(&curve.points).zip(&curve.beads).zip(&curve.flow) {
+                let expected = if matches!(bead, Bead::Wall(_)) { [1.0, 1.0] } else { limits };
+                prop_assert!((expected[0]..=expected[1]).contains(&flow), "{flow}");
+                laid += side.length() * flow * WIDTH;
+            }
+        }
+        let (before, after) = (constant.figures, flowing.figures);
+        prop_assert!(laid * after.overdeposit <= before.length * WIDTH * before.overdeposit + 0.02 * before.reachable);
+        prop_assert!(after.coverage >= before.coverage - 0.05, "{before:?} {after:?}");
+    }
+
+    #[test]
     fn a_region_in_another_place_is_filled_alike(region in region(), x in -500..500, y in -500..500) {
         // By whole steps of the grid, so that what rounding decides is decided alike.
         let (x, y) = (f64::from(x), f64::from(y));
@@ -190,6 +213,22 @@ fn what_is_bare_or_double_is_for_the_caller_to_choose() {
     assert!(bare.figures.coverage < 0.7 && bare.figures.overdeposit < 0.05, "{:?}", bare.figures);
     assert!(double.figures.coverage > 0.99 && double.figures.overdeposit > 0.2, "{:?}", double.figures);
     assert!(bare.bare.iter().any(|disc| disc.diameter > 0.9 * WIDTH), "what stays bare is listed");
+}
+
+#[test]
+fn flow_fills_odd_strips_once() {
+    // Wide enough for three lanes, and for seven, in which there are four and eight.
+    for (beads, walls, over) in [(3.0, 0, 0.05), (3.0, 1, 0.15), (7.0, 0, 0.05), (7.0, 1, 0.05)] {
+        let region = strip(60.0, beads * WIDTH);
+        let with = |flow| {
+            let options = FillOptions { flow, walls, ..options() };
+            fill(&region, &[], &options, &[]).expect("a strip has a fill").figures
+        };
+        let (constant, flowing) = (with(None), with(Some([0.75, 1.33])));
+        assert!(constant.overdeposit > over + 0.05, "{beads} beads, {walls} walls: {constant:?}");
+        assert!(flowing.overdeposit <= over, "{beads} beads, {walls} walls: {flowing:?}");
+        assert!(flowing.coverage >= 0.98, "{beads} beads, {walls} walls: {flowing:?}");
+    }
 }
 
 /// A square about the origin.
