@@ -121,18 +121,25 @@ fn crossing(inner: &Spot, outer: &Spot, sites: &[Segment], slight: f64) -> (DVec
 /// Tangents that turn by less than this make no corner; the sine of the angle.
 const LEAST_TURN: f64 = 0.2;
 
-/// Where the tangents at two crossings meet once they are moved out, if they do so inside of the cell; else the middle between them.
+/// Where the tangents at two crossings meet once they are moved out, or as far towards it from between them as the cell reaches;
+/// the middle between them where they hardly turn.
 fn corner(leaves: (DVec2, DVec2), enters: (DVec2, DVec2), slight: f64, [low, high]: [DVec2; 2]) -> DVec2 {
     let (a, b) = (leaves.1.normalize_or_zero(), enters.1.normalize_or_zero());
     let turn = a.perp_dot(b);
     let middle = leaves.0.midpoint(enters.0);
-    let moved = middle - slight * (a + b).normalize_or_zero();
     if turn.abs() < LEAST_TURN {
-        return moved;
+        return middle - slight * (a + b).normalize_or_zero();
     }
     let (c, d) = (a.dot(leaves.0 - middle) - slight, b.dot(enters.0 - middle) - slight);
-    let meeting = middle + DVec2::new(c * b.y - d * a.y, d * a.x - c * b.x) / turn;
-    if meeting.cmpge(low).all() && meeting.cmple(high).all() { meeting } else { moved }
+    let towards = DVec2::new(c * b.y - d * a.y, d * a.x - c * b.x) / turn;
+    // How far the cell reaches along either axis, as a share of the way.
+    let share = |from: f64, way: f64, low: f64, high: f64| match way {
+        _ if way > 0.0 => (high - from) / way,
+        _ if way < 0.0 => (low - from) / way,
+        _ => 1.0,
+    };
+    let along = share(middle.x, towards.x, low.x, high.x).min(share(middle.y, towards.y, low.y, high.y));
+    middle + along.clamp(0.0, 1.0) * towards
 }
 
 /// The vertices in their order along closed lines, without those round parts whose inside is no deeper than `thin`.
@@ -164,4 +171,84 @@ fn linked(turns: &[Turn], thin: f64) -> Vec<(f64, Vec<DVec2>)> {
         }
     }
     lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::nearest::Nearest;
+    use crate::plot::Plot;
+
+    const SLIGHT: f64 = 0.02;
+
+    /// The lines at a distance from the sides of a polygon, inside of it.
+    fn lines(corners: &[DVec2], level: f64) -> Vec<(f64, Vec<DVec2>)> {
+        let n = corners.len();
+        let sides: Vec<Segment> = (0..n).map(|k| Segment::new(corners[k], corners[(k + 1) % n])).collect();
+        let plot = Plot::new(&sides, 0.2).expect("it is small").expect("it has an inside");
+        let nearest = Nearest::new(&plot, &sides);
+        let cells =
+            plot.runs.iter().flat_map(|&(row, first, last)| (first - 1..=last).map(move |c| (c, row)));
+        let spots = |column: usize, row: usize| {
+            let corners = [(column, row), (column + 1, row), (column + 1, row + 1), (column, row + 1)];
+            Some(corners.map(|(column, row)| {
+                let (distance, site) = (nearest.distance(column, row), nearest.site(column, row));
+                Spot { at: plot.at(column, row), distance, site, level }
+            }))
+        };
+        contours(cells, &sides, plot.step, SLIGHT, spots, |column, row| nearest.distance(column, row))
+    }
+
+    fn turned(corners: &[(f64, f64)], angle: f64) -> Vec<DVec2> {
+        corners.iter().map(|&corner| DVec2::from_angle(angle).rotate(corner.into())).collect()
+    }
+
+    #[test]
+    fn straight_sides_and_corners_come_out_as_they_are() {
+        for angle in [0.0, 0.3, 0.7, 1.2] {
+            let found = lines(&turned(&[(0.0, 0.0), (9.0, 0.0), (9.0, 6.0), (0.0, 6.0)], angle), 1.0);
+            assert_eq!(found.len(), 1, "at {angle}");
+            let points = &found[0].1;
+            let ring = turned(&[(1.0, 1.0), (8.0, 1.0), (8.0, 5.0), (1.0, 5.0)], angle);
+            let sides: Vec<Segment> = (0..4).map(|k| Segment::new(ring[k], ring[(k + 1) % 4])).collect();
+            for &p in points {
+                let off = sides.iter().map(|side| side.distance(p)).fold(f64::INFINITY, f64::min);
+                // A right angle that pokes through the side of a cell between two points is cut by half a step at most.
+                let at_corner = ring.iter().any(|corner| corner.distance(p) < 0.3);
+                assert!(
+                    off < if at_corner { 0.1 * std::f64::consts::FRAC_1_SQRT_2 } else { 1e-3 },
+                    "{p} lies {off} off at {angle}"
+                );
+            }
+            for corner in ring {
+                let near = points.iter().map(|p| p.distance(corner)).fold(f64::INFINITY, f64::min);
+                assert!(near < 0.15, "no vertex near {corner} at {angle}: {near}");
+            }
+            let doubled: f64 =
+                (0..points.len()).map(|k| points[k].perp_dot(points[(k + 1) % points.len()])).sum();
+            assert!(doubled > 0.0 && (0.5 * doubled - 28.0).abs() < 0.1, "{doubled} at {angle}");
+        }
+    }
+
+    #[test]
+    fn a_neck_parts_lines_and_slivers_have_none() {
+        let bell = [
+            (0.0, 0.0),
+            (4.0, 0.0),
+            (4.0, 1.2),
+            (6.0, 1.2),
+            (6.0, 0.0),
+            (10.0, 0.0),
+            (10.0, 4.0),
+            (6.0, 4.0),
+            (6.0, 2.8),
+            (4.0, 2.8),
+            (4.0, 4.0),
+            (0.0, 4.0),
+        ];
+        assert_eq!(lines(&turned(&bell, 0.2), 0.5).len(), 1);
+        assert_eq!(lines(&turned(&bell, 0.2), 1.0).len(), 2);
+        let strip = [(0.0, 0.0), (9.0, 0.0), (9.0, 2.1), (0.0, 2.1)];
+        assert_eq!(lines(&turned(&strip, 0.5), 1.0).len(), 0);
+    }
 }

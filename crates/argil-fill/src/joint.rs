@@ -67,13 +67,14 @@ pub(crate) struct Search<'a> {
     pub(crate) wall_cut: f64,
     /// The longest joint, mm.
     pub(crate) reach: f64,
-    /// Places along the shorter ring of a pair at most.
+    /// Distance of the places that are tried, mm, and how many of a ring at most.
+    pub(crate) step: f64,
     pub(crate) samples: usize,
     /// Places to keep away from.
     pub(crate) avoid: &'a [DVec2],
 }
 
-/// Distance between two places that are tried, in w.
+/// The chord that gives a ring's direction goes so far to either side, in w.
 const STEP: f64 = 0.2;
 
 /// A joint may lean against the ring that it leaves so far: the cosine of its angle with it.
@@ -88,7 +89,7 @@ const STAGGER: f64 = 2.0;
 impl Search<'_> {
     /// How many places along a track are tried.
     pub(crate) fn count(&self, track: &Track) -> usize {
-        ((track.curve.length() / (STEP * self.width)).ceil() as usize).clamp(12, self.samples.max(12))
+        ((track.curve.length() / self.step).ceil() as usize).clamp(12, self.samples.max(12))
     }
 
     /// The joint between a place on one track and the nearest one on another, if it does not lean too much.

@@ -76,9 +76,9 @@ pub(crate) fn merge_within(
 
 /// First few places at neighbours, which do for nearly all rings; then all, and narrower joints for tiny rings and crowded places.
 const TIERS: [Tier; 5] = [
-    Tier { cut: 1.0, margin: 0.5, apart: 0.2, reach: 1.4, samples: 32 },
-    Tier { cut: 1.0, margin: 0.5, apart: 0.2, reach: 10.0, samples: 100_000 },
-    Tier { cut: 0.7, margin: 0.3, apart: 0.05, reach: 10.0, samples: 100_000 },
-    Tier { cut: 0.45, margin: 0.1, apart: 0.05, reach: 10.0, samples: 100_000 },
-    Tier { cut: 0.25, margin: 0.05, apart: 0.03, reach: 10.0, samples: 100_000 },
+    Tier { cut: 1.0, margin: 0.5, apart: 0.2, reach: 1.4, step: 0.4, samples: 32 },
+    Tier { cut: 1.0, margin: 0.5, apart: 0.2, reach: 10.0, step: 0.2, samples: 100_000 },
+    Tier { cut: 0.7, margin: 0.3, apart: 0.05, reach: 10.0, step: 0.2, samples: 100_000 },
+    Tier { cut: 0.45, margin: 0.1, apart: 0.05, reach: 10.0, step: 0.2, samples: 100_000 },
+    Tier { cut: 0.25, margin: 0.05, apart: 0.03, reach: 10.0, step: 0.2, samples: 100_000 },
 ];

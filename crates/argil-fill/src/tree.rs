@@ -20,7 +20,8 @@ pub(crate) struct Tier {
     pub(crate) apart: f64,
     /// The longest joint, in w, if the options allow it.
     pub(crate) reach: f64,
-    /// Places that are tried on a ring.
+    /// Distance of the places that are tried on a ring, in w, and how many at most.
+    pub(crate) step: f64,
     pub(crate) samples: usize,
 }
 
@@ -135,6 +136,7 @@ impl<'a> Tree<'a> {
             cut: tier.cut * w,
             wall_cut: self.options.wall_cut * w,
             reach: self.options.reach.min(tier.reach) * w,
+            step: tier.step * w,
             samples: tier.samples,
             avoid,
         };
