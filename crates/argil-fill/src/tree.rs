@@ -266,11 +266,10 @@ impl<'a> Tree<'a> {
         let touching = 2.0 * self.options.grid;
         let mut clear = true;
         self.index.for_each_near(leg, apart, |segment, side| {
-            let joined = joins.contains(&self.owner[segment]);
-            // A tip lies on its ring, up to rounding.
-            let touches = [leg.start, leg.end].iter().any(|&tip| side.is_within(tip, touching));
-            clear &= if joined {
-                !(if touches { inner } else { leg }).crosses(&side)
+            clear &= if joins.contains(&self.owner[segment]) {
+                // A tip lies on its ring, up to rounding.
+                let touches = || [leg.start, leg.end].iter().any(|&tip| side.is_within(tip, touching));
+                !(leg.crosses(&side) && (inner.crosses(&side) || !touches()))
             } else {
                 keeps_apart(&inner, &side, apart)
             };
