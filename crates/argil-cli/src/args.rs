@@ -166,6 +166,9 @@ pub(crate) struct PlanArgs {
     /// Write a table of poses for robot cells as well.
     #[arg(long, value_name = "OUT.csv")]
     pub(crate) poses: Option<PathBuf>,
+    /// Refuse a model that has to be repaired, and tell what is wrong with it and where.
+    #[arg(long)]
+    pub(crate) strict: bool,
     /// Follow the paper's text literally where it is definite. For comparison: such a plan is not sound.
     #[arg(long)]
     pub(crate) paper_exact: bool,

@@ -16,6 +16,8 @@ pub(crate) enum Failure {
     File { path: PathBuf, doing: &'static str, source: std::io::Error },
     /// The model or g-code is not usable.
     Input { name: String, source: Box<dyn std::error::Error> },
+    /// The model has a defect, and is not to be repaired.
+    Defect { name: String, kind: &'static str, count: usize, at: [f64; 3] },
     /// There is no such bundled model.
     Sample { name: String },
     /// There is no such printer or material.
@@ -79,6 +81,12 @@ impl fmt::Display for Failure {
         match self {
             Self::File { path, doing, source } => write!(f, "cannot {doing} {}: {source}", path.display()),
             Self::Input { name, source } => write!(f, "{name}: {source}"),
+            Self::Defect { name, kind, count, at: [x, y, z] } => {
+                write!(
+                    f,
+                    "{name}: {count} {kind}, the first at ({x:.2}, {y:.2}, {z:.2}); --strict repairs nothing"
+                )
+            }
             Self::Sample { name } => {
                 write!(f, "there is no bundled model `{name}`; `argil samples` lists them")
             }
@@ -116,6 +124,12 @@ fn advice(error: &argil::PlanError) -> Option<&'static str> {
         }
         Slice(argil::slice::SliceError::TooManyLayers { .. } | argil::slice::SliceError::TooWide { .. }) => {
             Some("try --height, or --scale 0.001 if the file is in micrometres")
+        }
+        Slice(argil::slice::SliceError::Open { .. }) => Some(
+            "nothing was written; close the hole in the program that the model was made in, or with one that repairs meshes",
+        ),
+        Slice(argil::slice::SliceError::Gap { .. }) => {
+            Some("nothing was written; without --strict the gap is closed with a straight line")
         }
         Layer { .. } | Seam(_) => Some(
             "nothing was written; try another --layer-height or a smaller --width, or a paste that bears more (--across, --along)",

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use argil::mesh::{Ground, Mesh, Placement, Size, read_stl};
+use argil::mesh::{Ground, Mesh, Placement, Repairs, Size, stl};
 use argil::{Material, Settings};
 
 use crate::args::{BeadArgs, Place, PlaceArgs};
@@ -12,15 +12,28 @@ use crate::profiles::Profiles;
 /// What names a bundled model in place of a file.
 const SAMPLE: &str = "sample:";
 
+/// A model as it is planned.
+pub(crate) struct Model {
+    /// Where it is to stand, in its size.
+    pub(crate) mesh: Mesh,
+    /// What was repaired, in the coordinates of the file.
+    pub(crate) repairs: Repairs,
+    /// What else there is to say about the file.
+    pub(crate) remarks: Vec<String>,
+}
+
 /// The placed mesh of a file or bundled model.
-pub(crate) fn model(name: &str, place: PlaceArgs, profiles: &Profiles) -> Result<Mesh, Failure> {
+pub(crate) fn model(name: &str, place: PlaceArgs, profiles: &Profiles) -> Result<Model, Failure> {
     let bytes = match name.strip_prefix(SAMPLE) {
         Some(sample) => {
             argil_models::by_name(sample).ok_or_else(|| Failure::Sample { name: sample.to_owned() })?.to_stl()
         }
         None => std::fs::read(name).map_err(|source| Failure::reading(Path::new(name), source))?,
     };
-    let mesh = read_stl(&bytes).map_err(|source| Failure::input(name, source))?;
+    let soup = stl(&bytes).map_err(|source| Failure::input(name, source))?;
+    drop(bytes);
+    let remarks = soup.remarks.iter().map(ToString::to_string).collect();
+    let (mesh, repairs) = soup.repaired().map_err(|source| Failure::input(name, source))?;
     let size = match (place.scale, place.height) {
         (Some(factor), _) => Size::Scale(factor),
         (_, Some(height)) => Size::Height(height),
@@ -33,7 +46,8 @@ pub(crate) fn model(name: &str, place: PlaceArgs, profiles: &Profiles) -> Result
         Some(Place::Bed) => bed.ok_or(Failure::NoBed)?,
         None => bed.unwrap_or(Ground::Keep),
     };
-    mesh.placed(&Placement { size, ground }).map_err(|source| Failure::input(name, source))
+    let mesh = mesh.placed(&Placement { size, ground }).map_err(|source| Failure::input(name, source))?;
+    Ok(Model { mesh, repairs, remarks })
 }
 
 /// The settings of a plan: options first, then printer and material, then defaults.

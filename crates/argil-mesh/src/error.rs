@@ -1,5 +1,9 @@
 use thiserror::Error;
 
+fn at_line(line: usize) -> String {
+    if line == 0 { String::new() } else { format!("line {line}: ") }
+}
+
 /// Why bytes are no mesh, or why a mesh cannot be placed.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
@@ -20,8 +24,8 @@ pub enum MeshError {
         /// Bytes after the last whole triangle.
         extra: u64,
     },
-    /// Neither a binary STL nor a text one.
-    #[error("no STL: line {line}: expected {expected}")]
+    /// A file that does not follow its format.
+    #[error("{}expected {expected}", at_line(*line))]
     Unreadable {
         /// The line of the text, counted from 1 (0 where the file is no text).
         line: usize,
