@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use argil::mesh::Unit;
 use clap::{Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
@@ -107,6 +108,10 @@ pub(crate) struct PlaceArgs {
     /// [default: bed where a printer is given whose bed is known, or keep].
     #[arg(long, value_enum)]
     pub(crate) place: Option<Place>,
+    /// The unit of the model's file, where its format has none (STL, OBJ, PLY), or in place of the one that it states (3MF)
+    /// [default: mm, or what the file states].
+    #[arg(long, value_enum)]
+    pub(crate) unit: Option<UnitArg>,
     /// Scale the model by this factor.
     #[arg(long, value_name = "F", conflicts_with = "height", allow_negative_numbers = true)]
     pub(crate) scale: Option<f64>,
@@ -125,9 +130,38 @@ pub(crate) enum Place {
     Bed,
 }
 
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum UnitArg {
+    /// 0.001 mm.
+    Micron,
+    /// Millimetres.
+    Mm,
+    /// 10 mm.
+    Cm,
+    /// 25.4 mm.
+    Inch,
+    /// 304.8 mm.
+    Foot,
+    /// 1,000 mm.
+    M,
+}
+
+impl From<UnitArg> for Unit {
+    fn from(unit: UnitArg) -> Self {
+        match unit {
+            UnitArg::Micron => Self::Micron,
+            UnitArg::Mm => Self::Millimetre,
+            UnitArg::Cm => Self::Centimetre,
+            UnitArg::Inch => Self::Inch,
+            UnitArg::Foot => Self::Foot,
+            UnitArg::M => Self::Metre,
+        }
+    }
+}
+
 #[derive(Debug, clap::Args)]
 pub(crate) struct PlanArgs {
-    /// The model: an STL file (binary or ASCII), or sample:NAME.
+    /// The model: an STL, OBJ, PLY or 3MF file, or sample:NAME.
     #[arg(value_name = "MODEL")]
     pub(crate) model: String,
     /// Where the g-code goes; for a robot cell, the table of poses.
@@ -207,7 +241,7 @@ pub(crate) struct AuditArgs {
     /// The g-code file.
     #[arg(value_name = "OUT.gcode")]
     pub(crate) gcode: PathBuf,
-    /// The model that it was made from: an STL file, or sample:NAME.
+    /// The model that it was made from: an STL, OBJ, PLY or 3MF file, or sample:NAME.
     #[arg(long, value_name = "MODEL")]
     pub(crate) model: String,
     /// Bead width that the tolerances of the audit are meant for, in mm [default: the bead's width].

@@ -4,6 +4,8 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use argil::mesh::{Format, MeshError};
+
 /// The plan stands or the file was read, but there are findings.
 pub(crate) const FINDINGS: u8 = 4;
 const BAD_INPUT: u8 = 3;
@@ -16,6 +18,8 @@ pub(crate) enum Failure {
     File { path: PathBuf, doing: &'static str, source: std::io::Error },
     /// The model or g-code is not usable.
     Input { name: String, source: Box<dyn std::error::Error> },
+    /// The model's file is of no format that is read.
+    Format { name: String },
     /// The model has a defect, and is not to be repaired.
     Defect { name: String, kind: &'static str, count: usize, at: [f64; 3] },
     /// There is no such bundled model.
@@ -52,6 +56,11 @@ impl Failure {
         Self::Input { name: name.to_owned(), source: Box::new(source) }
     }
 
+    /// A model that does not follow its format.
+    pub(crate) fn reading_as(name: &str, format: Format, source: MeshError) -> Self {
+        Self::Input { name: format!("{name}, read as {format}"), source: Box::new(source) }
+    }
+
     /// A setting that cannot be, under the name that it has on the command line.
     pub(crate) fn option(source: argil::PlanError) -> Self {
         let name = match &source {
@@ -81,6 +90,9 @@ impl fmt::Display for Failure {
         match self {
             Self::File { path, doing, source } => write!(f, "cannot {doing} {}: {source}", path.display()),
             Self::Input { name, source } => write!(f, "{name}: {source}"),
+            Self::Format { name } => {
+                write!(f, "{name}: no STL, OBJ, PLY or 3MF file; export the model as one of these")
+            }
             Self::Defect { name, kind, count, at: [x, y, z] } => {
                 write!(
                     f,

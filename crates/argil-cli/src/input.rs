@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use argil::mesh::{Ground, Mesh, Placement, Repairs, Size, stl};
+use argil::mesh::{Format, Ground, Mesh, Placement, Repairs, Size, Soup, Unit};
 use argil::{Material, Settings};
 
 use crate::args::{BeadArgs, Place, PlaceArgs};
@@ -30,9 +30,16 @@ pub(crate) fn model(name: &str, place: PlaceArgs, profiles: &Profiles) -> Result
         }
         None => std::fs::read(name).map_err(|source| Failure::reading(Path::new(name), source))?,
     };
-    let soup = stl(&bytes).map_err(|source| Failure::input(name, source))?;
+    let extension = Path::new(name).extension().and_then(|extension| extension.to_str());
+    let format = Format::of(&bytes, extension).ok_or_else(|| Failure::Format { name: name.to_owned() })?;
+    let soup = format.read(&bytes).map_err(|source| Failure::reading_as(name, format, source))?;
     drop(bytes);
-    let remarks = soup.remarks.iter().map(ToString::to_string).collect();
+    let mut remarks: Vec<String> = soup.remarks.iter().map(ToString::to_string).collect();
+    let unit = place.unit.map(Unit::from).or(soup.unit);
+    if unit.is_none() && place.scale.is_none() && place.height.is_none() {
+        remarks.extend(odd_size(&soup));
+    }
+    let soup = soup.in_millimetres(unit.unwrap_or(Unit::Millimetre));
     let (mesh, repairs) = soup.repaired().map_err(|source| Failure::input(name, source))?;
     let size = match (place.scale, place.height) {
         (Some(factor), _) => Size::Scale(factor),
@@ -48,6 +55,15 @@ pub(crate) fn model(name: &str, place: PlaceArgs, profiles: &Profiles) -> Result
     };
     let mesh = mesh.placed(&Placement { size, ground }).map_err(|source| Failure::input(name, source))?;
     Ok(Model { mesh, repairs, remarks })
+}
+
+/// What is odd about the size of a model whose file states no unit; nothing is guessed.
+fn odd_size(soup: &Soup) -> Option<String> {
+    let extent = soup.bounds().size().into_iter().fold(f64::NEG_INFINITY, f64::max);
+    let hint = Unit::hint(extent)?;
+    Some(format!(
+        "its largest extent is {extent} mm; if that is odd, say in which unit it was made, as by --unit {hint}"
+    ))
 }
 
 /// The settings of a plan: options first, then printer and material, then defaults.

@@ -28,7 +28,9 @@ mod winding;
 
 pub use edges::EdgeTable;
 pub use error::MeshError;
-pub use formats::{read_stl, stl};
+#[cfg(feature = "3mf")]
+pub use formats::three_mf;
+pub use formats::{Format, obj, ply, read_stl, stl};
 pub use mesh::{Bounds, Mesh};
 pub use placement::{Ground, Placement, Size};
 pub use remark::Remark;

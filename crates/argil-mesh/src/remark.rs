@@ -12,6 +12,11 @@ pub enum Remark {
         /// How many whole triangles follow it.
         present: u64,
     },
+    /// Objects of a 3MF file that are no part of the model, as supports of another program, were left out.
+    Aids {
+        /// How many.
+        count: usize,
+    },
 }
 
 impl fmt::Display for Remark {
@@ -20,6 +25,7 @@ impl fmt::Display for Remark {
             Self::Count { declared, present } => {
                 write!(f, "the header declares {declared} triangles; all {present} that follow were read")
             }
+            Self::Aids { count } => write!(f, "{count} objects that are no part of the model were left out"),
         }
     }
 }

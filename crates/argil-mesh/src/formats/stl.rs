@@ -57,6 +57,12 @@ pub fn stl(bytes: &[u8]) -> Result<Soup, MeshError> {
     }
 }
 
+/// Whether the length of the file is that of a binary STL with as many triangles as its header declares.
+pub(crate) fn is_whole_binary(bytes: &[u8]) -> bool {
+    let declared = bytes.get(80..HEADER).and_then(|count| count.try_into().ok()).map(u32::from_le_bytes);
+    declared.is_some_and(|count| (bytes.len() - HEADER) as u64 == u64::from(count) * RECORD as u64)
+}
+
 /// Binary bodies hold zero bytes (small exponents, the attribute words), text never does.
 fn is_text(bytes: &[u8]) -> bool {
     let start = bytes.trim_ascii_start();

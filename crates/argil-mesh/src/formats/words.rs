@@ -59,6 +59,11 @@ impl<'a> Words<'a> {
         self.rest = &[];
     }
 
+    /// Everything after the current line.
+    pub(crate) fn rest_of_text(&self) -> &'a [u8] {
+        self.text
+    }
+
     pub(crate) fn expected(&self, expected: &'static str) -> MeshError {
         MeshError::Unreadable { line: self.line, expected }
     }
