@@ -161,7 +161,7 @@ impl From<UnitArg> for Unit {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct PlanArgs {
-    /// The model: an STL, OBJ, PLY or 3MF file, or sample:NAME.
+    /// The model: an STL, OBJ, PLY or 3MF file, layers in JSON, or sample:NAME.
     #[arg(value_name = "MODEL")]
     pub(crate) model: String,
     /// Where the g-code goes; for a robot cell, the table of poses.

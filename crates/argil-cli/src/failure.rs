@@ -20,6 +20,8 @@ pub(crate) enum Failure {
     Input { name: String, source: Box<dyn std::error::Error> },
     /// The model's file is of no format that is read.
     Format { name: String },
+    /// Layers come in another height than they are to be printed in.
+    LayerHeight { name: String, given: f64, planned: f64 },
     /// The model has a defect, and is not to be repaired.
     Defect { name: String, kind: &'static str, count: usize, at: [f64; 3] },
     /// There is no such bundled model.
@@ -61,6 +63,11 @@ impl Failure {
         Self::Input { name: format!("{name}, read as {format}"), source: Box::new(source) }
     }
 
+    /// A file of layers that cannot be read.
+    pub(crate) fn layers(name: &str, source: impl std::error::Error + 'static) -> Self {
+        Self::Input { name: format!("{name}, read as layers in JSON"), source: Box::new(source) }
+    }
+
     /// A setting that cannot be, under the name that it has on the command line.
     pub(crate) fn option(source: argil::PlanError) -> Self {
         let name = match &source {
@@ -91,7 +98,16 @@ impl fmt::Display for Failure {
             Self::File { path, doing, source } => write!(f, "cannot {doing} {}: {source}", path.display()),
             Self::Input { name, source } => write!(f, "{name}: {source}"),
             Self::Format { name } => {
-                write!(f, "{name}: no STL, OBJ, PLY or 3MF file; export the model as one of these")
+                write!(
+                    f,
+                    "{name}: no STL, OBJ, PLY or 3MF file, and no layers in JSON; export the model as one of these"
+                )
+            }
+            Self::LayerHeight { name, given, planned } => {
+                write!(
+                    f,
+                    "{name}: its layers are {given} mm high, the plan's {planned} mm; say --layer-height {given}"
+                )
             }
             Self::Defect { name, kind, count, at: [x, y, z] } => {
                 write!(

@@ -7,10 +7,14 @@ use argil::{Material, Settings};
 
 use crate::args::{BeadArgs, Place, PlaceArgs};
 use crate::failure::Failure;
+use crate::layer_file;
 use crate::profiles::Profiles;
 
 /// What names a bundled model in place of a file.
 const SAMPLE: &str = "sample:";
+
+/// Layer heights that differ by less than this share are the same, up to rounding: over 10,000 layers it is a tenth of one.
+const SAME_HEIGHT: f64 = 1e-5;
 
 /// A model as it is planned.
 pub(crate) struct Model {
@@ -22,14 +26,36 @@ pub(crate) struct Model {
     pub(crate) remarks: Vec<String>,
 }
 
-/// The placed mesh of a file or bundled model.
-pub(crate) fn model(name: &str, place: PlaceArgs, profiles: &Profiles) -> Result<Model, Failure> {
+/// The placed mesh of a file or bundled model, which is to be cut into layers of this height.
+pub(crate) fn model(
+    name: &str,
+    place: PlaceArgs,
+    profiles: &Profiles,
+    layer_height: f64,
+) -> Result<Model, Failure> {
     let bytes = match name.strip_prefix(SAMPLE) {
         Some(sample) => {
             argil_models::by_name(sample).ok_or_else(|| Failure::Sample { name: sample.to_owned() })?.to_stl()
         }
         None => std::fs::read(name).map_err(|source| Failure::reading(Path::new(name), source))?,
     };
+    if layer_file::is_layer_file(&bytes) {
+        let layers = layer_file::read(name, &bytes, place.unit)?;
+        let mesh = placed(name, &layers.mesh, place, profiles)?;
+        let given = layers.layer_height * (mesh.bounds().size()[2] / layers.mesh.bounds().size()[2]);
+        if (given / layer_height - 1.0).abs() > SAME_HEIGHT {
+            return Err(Failure::LayerHeight { name: name.to_owned(), given, planned: layer_height });
+        }
+        return Ok(Model { mesh, repairs: Repairs::default(), remarks: Vec::new() });
+    }
+    let (soup, remarks) = soup(name, bytes, place)?;
+    let (mesh, repairs) = soup.repaired().map_err(|source| Failure::input(name, source))?;
+    let mesh = placed(name, &mesh, place, profiles)?;
+    Ok(Model { mesh, repairs, remarks })
+}
+
+/// The triangles of a model file in millimetres, and what is to be said about it.
+fn soup(name: &str, bytes: Vec<u8>, place: PlaceArgs) -> Result<(Soup, Vec<String>), Failure> {
     let extension = Path::new(name).extension().and_then(|extension| extension.to_str());
     let format = Format::of(&bytes, extension).ok_or_else(|| Failure::Format { name: name.to_owned() })?;
     let soup = format.read(&bytes).map_err(|source| Failure::reading_as(name, format, source))?;
@@ -39,8 +65,11 @@ pub(crate) fn model(name: &str, place: PlaceArgs, profiles: &Profiles) -> Result
     if unit.is_none() && place.scale.is_none() && place.height.is_none() {
         remarks.extend(odd_size(&soup));
     }
-    let soup = soup.in_millimetres(unit.unwrap_or(Unit::Millimetre));
-    let (mesh, repairs) = soup.repaired().map_err(|source| Failure::input(name, source))?;
+    Ok((soup.in_millimetres(unit.unwrap_or(Unit::Millimetre)), remarks))
+}
+
+/// The mesh in its size and place.
+fn placed(name: &str, mesh: &Mesh, place: PlaceArgs, profiles: &Profiles) -> Result<Mesh, Failure> {
     let size = match (place.scale, place.height) {
         (Some(factor), _) => Size::Scale(factor),
         (_, Some(height)) => Size::Height(height),
@@ -53,8 +82,7 @@ pub(crate) fn model(name: &str, place: PlaceArgs, profiles: &Profiles) -> Result
         Some(Place::Bed) => bed.ok_or(Failure::NoBed)?,
         None => bed.unwrap_or(Ground::Keep),
     };
-    let mesh = mesh.placed(&Placement { size, ground }).map_err(|source| Failure::input(name, source))?;
-    Ok(Model { mesh, repairs, remarks })
+    mesh.placed(&Placement { size, ground }).map_err(|source| Failure::input(name, source))
 }
 
 /// What is odd about the size of a model whose file states no unit; nothing is guessed.

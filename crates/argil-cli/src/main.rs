@@ -12,6 +12,7 @@ mod closed_slices;
 mod config;
 mod failure;
 mod input;
+mod layer_file;
 mod list_command;
 mod machine;
 mod machine_args;

@@ -32,7 +32,8 @@ pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
     let mut written = machine::gcode_settings(&args.job(), &settings, &profiles)?;
     let files = [&args.report, &args.strand, &args.png, &args.preview, &args.poses].map(Option::as_ref);
     files.into_iter().chain([Some(&args.output)]).flatten().try_for_each(|path| output::check(path))?;
-    let Model { mesh, repairs, remarks } = input::model(&args.model, args.place, &profiles)?;
+    let Model { mesh, repairs, remarks } =
+        input::model(&args.model, args.place, &profiles, settings.layer_height)?;
     if args.strict {
         refuse_defects(&args.model, &repairs)?;
     }

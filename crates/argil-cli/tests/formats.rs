@@ -169,6 +169,57 @@ fn units_are_stated_and_never_guessed() {
 }
 
 #[test]
+fn layers_of_another_program_are_printed_as_they_are() {
+    let folder = folder("layers");
+    let ring = |half: f64| format!("[[-{half},-{half}],[{half},-{half}],[{half},{half}],[-{half},{half}]]");
+    // A tower that narrows, with a hole that runs the same way round as its outline.
+    let layers: Vec<String> =
+        (0..6).map(|k| format!("[{},{}]", ring(12.0 - 0.2 * f64::from(k)), ring(6.0))).collect();
+    let text = format!("{{\"layer_height\": 1, \"layers\": [{}]}}", layers.join(","));
+    let (moves, said) = planned(&folder, "tower.json", text.as_bytes(), &["--report", "out.json"], DONE);
+    assert!(said.contains("6 layers in one strand") && said.contains("audit: sound"), "{said}");
+    assert!(moves.len() > 30);
+    let report: serde_json::Value =
+        serde_json::from_slice(&fs::read(folder.join("out.json")).unwrap()).unwrap();
+    // Half a bead inside the outline, and outside the hole.
+    let walls: f64 = (0..6).map(|k| 8.0 * (10.5 - 0.2 * f64::from(k)) + 8.0 * 7.5).sum();
+    assert!(
+        (report["wall_mm"].as_f64().unwrap() / walls - 1.0).abs() < 0.01,
+        "{} of {walls}",
+        report["wall_mm"]
+    );
+    assert_eq!(report["losses"].as_array().unwrap().len(), 0);
+    // In metres.
+    let metres = text.replace("\"layer_height\": 1,", "\"unit\": \"mm\", \"layer_height\": 1.0,");
+    assert_eq!(planned(&folder, "tower.json", metres.as_bytes(), &["--unit", "mm"], DONE).0, moves);
+    for (text, extra, says) in [
+        (
+            text.clone(),
+            &["--layer-height", "0.5"][..],
+            "its layers are 1 mm high, the plan's 0.5 mm; say --layer-height 1",
+        ),
+        (text.replace("mm", ""), &["--scale", "2"], "say --layer-height 2"),
+        ("{\"layers\": []}".to_owned(), &[], "missing field `layer_height`"),
+        ("{\"layer_height\": 1, \"layers\": [[]]}".to_owned(), &[], "no layer has a contour"),
+        ("{\"layer_height\": 0, \"layers\": [[]]}".to_owned(), &[], "layer_height must be"),
+        (
+            "{\"layer_height\": 1, \"layers\": [[[[0,1],[1e9,0],[0,0]]]]}".to_owned(),
+            &[],
+            "contour 0 of layer 0",
+        ),
+        ("{\"unit\": \"ell\", \"layer_height\": 1, \"layers\": []}".to_owned(), &[], "unit: "),
+        (
+            "{\"layer_height\": 1, \"layers\": [[[[0,1,2]]]]}".to_owned(),
+            &[],
+            "tower.json, read as layers in JSON",
+        ),
+    ] {
+        let (_, said) = planned(&folder, "tower.json", text.as_bytes(), extra, BAD_INPUT);
+        assert!(said.contains(says), "no `{says}` in\n{said}");
+    }
+}
+
+#[test]
 fn what_is_no_model_is_told_by_name() {
     let folder = folder("none");
     for (file, bytes, says) in [

@@ -42,6 +42,27 @@ pub enum SliceError {
         /// How many are allowed.
         limit: usize,
     },
+    /// A contour with a coordinate that is not finite or is too large.
+    #[error(
+        "contour {contour} of layer {layer} has a coordinate that is not finite or is beyond {limit:e} mm"
+    )]
+    Contour {
+        /// The layer, 0 at the bottom.
+        layer: usize,
+        /// The contour in it.
+        contour: usize,
+        /// The largest coordinate.
+        limit: f64,
+    },
+    /// No contour encloses anything.
+    #[error("no layer has a contour that encloses anything")]
+    NoContours,
+    /// Contours with more points than a mesh can name.
+    #[error("the contours have more than {limit} points")]
+    TooManyPoints {
+        /// How many there may be.
+        limit: usize,
+    },
     /// A mesh so wide that the polygon kernel's 30-bit grid becomes coarser than the output grid.
     #[error("the mesh is {extent} mm wide, more than {limit} mm: is it in millimetres?")]
     TooWide {

@@ -29,6 +29,7 @@ mod simplification;
 mod slicing;
 mod soundness;
 mod spine;
+mod stack;
 mod thin;
 mod wall;
 
@@ -38,3 +39,4 @@ pub use layer::{Layer, Loss, WallLoop, outer_walls};
 pub use openings::check_closed;
 pub use settings::SliceSettings;
 pub use slicing::slice;
+pub use stack::stacked;

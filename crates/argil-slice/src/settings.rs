@@ -4,7 +4,7 @@ use crate::SliceError;
 pub(crate) const MOST_LAYERS: usize = 100_000;
 
 /// Lengths beyond a kilometre are a mistake, and the polygon kernel cannot grow a region by much more.
-const LONGEST: f64 = 1e6;
+pub(crate) const LONGEST: f64 = 1e6;
 
 /// How a mesh is cut and its walls are laid.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -55,8 +55,7 @@ fn face(words: &mut Words<'_>, soup: &mut Soup) -> Result<(), MeshError> {
     const CORNER: &str = "the number of a position that was given before";
     let mut fan: Option<(u32, Option<u32>)> = None;
     let mut count = 0;
-    loop {
-        let Some(word) = words.next_on_line() else { break };
+    while let Some(word) = words.next_on_line() {
         if word == b"\\" {
             if !words.next_line() {
                 break;
