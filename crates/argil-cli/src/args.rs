@@ -113,6 +113,9 @@ pub(crate) struct PlaceArgs {
     /// [default: mm, or what the file states].
     #[arg(long, value_enum)]
     pub(crate) unit: Option<UnitArg>,
+    /// Memory in GiB that slicing may take: larger models are refused before the work begins.
+    #[arg(long, value_name = "GIB", default_value_t = 4.0)]
+    pub(crate) memory: f64,
     /// Scale the model by this factor.
     #[arg(long, value_name = "F", conflicts_with = "height", allow_negative_numbers = true)]
     pub(crate) scale: Option<f64>,

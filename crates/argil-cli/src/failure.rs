@@ -22,6 +22,10 @@ pub(crate) enum Failure {
     Format { name: String },
     /// Layers come in another height than they are to be printed in.
     LayerHeight { name: String, given: f64, planned: f64 },
+    /// More than is taken.
+    TooLarge { name: String, what: &'static str, found: u64, limit: u64, unit: &'static str },
+    /// Slicing would take more memory than it may.
+    Memory { name: String, needed: f64, given: f64 },
     /// The model has a defect, and is not to be repaired.
     Defect { name: String, kind: &'static str, count: usize, at: [f64; 3] },
     /// There is no such bundled model.
@@ -109,6 +113,14 @@ impl fmt::Display for Failure {
                     "{name}: its layers are {given} mm high, the plan's {planned} mm; say --layer-height {given}"
                 )
             }
+            Self::TooLarge { name, what, found, limit, unit } => {
+                write!(f, "{name}: {what} of {found} {unit} is more than {limit}; reduce the mesh first")
+            }
+            Self::Memory { name, needed, given } => write!(
+                f,
+                "{name}: slicing it is estimated to take {needed:.1} GiB of memory, more than {given}; reduce the mesh, or \
+                 allow more by --memory"
+            ),
             Self::Defect { name, kind, count, at: [x, y, z] } => {
                 write!(
                     f,

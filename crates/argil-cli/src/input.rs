@@ -7,8 +7,8 @@ use argil::{Material, Settings};
 
 use crate::args::{BeadArgs, Place, PlaceArgs};
 use crate::failure::Failure;
-use crate::layer_file;
 use crate::profiles::Profiles;
+use crate::{layer_file, limits};
 
 /// What names a bundled model in place of a file.
 const SAMPLE: &str = "sample:";
@@ -37,7 +37,10 @@ pub(crate) fn model(
         Some(sample) => {
             argil_models::by_name(sample).ok_or_else(|| Failure::Sample { name: sample.to_owned() })?.to_stl()
         }
-        None => std::fs::read(name).map_err(|source| Failure::reading(Path::new(name), source))?,
+        None => {
+            limits::check_file(Path::new(name))?;
+            std::fs::read(name).map_err(|source| Failure::reading(Path::new(name), source))?
+        }
     };
     if layer_file::is_layer_file(&bytes) {
         let layers = layer_file::read(name, &bytes, place.unit)?;
@@ -46,11 +49,13 @@ pub(crate) fn model(
         if (given / layer_height - 1.0).abs() > SAME_HEIGHT {
             return Err(Failure::LayerHeight { name: name.to_owned(), given, planned: layer_height });
         }
+        limits::check_mesh(Path::new(name), &mesh, layer_height, place.memory)?;
         return Ok(Model { mesh, repairs: Repairs::default(), remarks: Vec::new() });
     }
     let (soup, remarks) = soup(name, bytes, place)?;
     let (mesh, repairs) = soup.repaired().map_err(|source| Failure::input(name, source))?;
     let mesh = placed(name, &mesh, place, profiles)?;
+    limits::check_mesh(Path::new(name), &mesh, layer_height, place.memory)?;
     Ok(Model { mesh, repairs, remarks })
 }
 

@@ -14,6 +14,7 @@ mod config;
 mod failure;
 mod input;
 mod layer_file;
+mod limits;
 mod list_command;
 mod machine;
 mod machine_args;

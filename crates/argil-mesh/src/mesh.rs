@@ -1,9 +1,9 @@
 use crate::shells::turned_outwards;
 use crate::{EdgeTable, MeshError, Placement, Repairs, Soup, placement, winding};
 
-/// Coordinates beyond this are refused: their squares and cubes (areas, volumes) must stay exact
-/// enough to compare, and nobody prints a thousand kilometres.
-pub(crate) const LARGEST: f64 = 1e9;
+/// Coordinates beyond this are refused: a kilometre from the origin the output grid of 1e-4 mm is still a
+/// million times coarser than the numbers, and nobody prints there.
+pub(crate) const LARGEST: f64 = 1e6;
 
 /// A triangle mesh whose coincident vertices are one vertex.
 ///
