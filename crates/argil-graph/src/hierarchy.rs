@@ -128,6 +128,22 @@ impl Hierarchy {
         (&self.to[slots.clone()], &self.weights[slots])
     }
 
+    /// Whether the vertex of a rank is an attachment.
+    pub(crate) fn is_attachment(&self, rank: u32) -> bool {
+        (rank as usize) < self.attachment_count
+    }
+
+    /// The lowest rank that links lead to, if any do.
+    #[inline]
+    pub(crate) fn parent(&self, rank: u32) -> Option<u32> {
+        self.links(rank).0.first().copied()
+    }
+
+    /// The rank, which is no attachment's, and all above it, ascending.
+    pub(crate) fn ancestors(&self, rank: u32) -> impl Iterator<Item = u32> + '_ {
+        std::iter::successors(Some(rank), |&rank| self.parent(rank))
+    }
+
     /// What the link between two ranks leads through; none if it is an edge.
     pub(crate) fn middle(&self, a: u32, b: u32) -> Option<u32> {
         let (low, high) = (a.min(b), a.max(b));
@@ -146,13 +162,13 @@ impl Hierarchy {
     pub(crate) fn climb(&self, rank: u32, mut visit: impl FnMut(u32) -> bool) {
         let mut follow = |mut rank: u32| {
             while visit(rank) {
-                match self.links(rank).0.first() {
-                    Some(&next) => rank = next,
+                match self.parent(rank) {
+                    Some(next) => rank = next,
                     None => break,
                 }
             }
         };
-        if (rank as usize) < self.attachment_count {
+        if self.is_attachment(rank) {
             for &next in self.links(rank).0 {
                 follow(next);
             }
