@@ -163,7 +163,8 @@ fn table(sizes: &[usize], seed: u64, rounds: usize) -> Result<(), Box<dyn Error>
         writeln!(out, "| {terminals} | {vertices} | {cells} | {ratio:.5} |")?;
         rows.push((terminals as f64, least));
     }
-    let slopes: Vec<f64> = (0..COLUMNS.len()).map(|k| slope(rows.iter().map(|row| (row.0, row.1[k])))).collect();
+    let slopes: Vec<f64> =
+        (0..COLUMNS.len()).map(|k| slope(rows.iter().map(|row| (row.0, row.1[k])))).collect();
     let cells: Vec<String> = slopes.iter().map(|slope| format!("{slope:.2}")).collect();
     writeln!(out, "| slope | | {} | |", cells.join(" | "))?;
     let goals = COLUMNS.map(|column| column.1.map_or(String::new(), |goal| format!("≤ {goal}")));
@@ -175,9 +176,10 @@ fn table(sizes: &[usize], seed: u64, rounds: usize) -> Result<(), Box<dyn Error>
 fn slope(points: impl Iterator<Item = (f64, f64)>) -> f64 {
     let logs: Vec<(f64, f64)> = points.map(|(x, y)| (x.ln(), y.ln())).collect();
     let count = logs.len() as f64;
-    let (mean_x, mean_y) = logs.iter().fold((0.0, 0.0), |sum, log| (sum.0 + log.0 / count, sum.1 + log.1 / count));
-    let (along, across) = logs.iter().fold((0.0, 0.0), |sum, &(x, y)| {
-        (sum.0 + (x - mean_x).powi(2), sum.1 + (x - mean_x) * (y - mean_y))
-    });
+    let (mean_x, mean_y) =
+        logs.iter().fold((0.0, 0.0), |sum, log| (sum.0 + log.0 / count, sum.1 + log.1 / count));
+    let (along, across) = logs
+        .iter()
+        .fold((0.0, 0.0), |sum, &(x, y)| (sum.0 + (x - mean_x).powi(2), sum.1 + (x - mean_x) * (y - mean_y)));
     across / along
 }
