@@ -1,5 +1,7 @@
 //! Cholesky factors of narrow symmetric bands.
 
+use glam::DMat2;
+
 /// A symmetric matrix with nothing beyond a band along its diagonal, and its factor.
 ///
 /// A row is its last `width` entries up to the diagonal. Rows of zeros stand before the first, so that all rows are
@@ -49,11 +51,25 @@ impl Band {
         (row + self.width) * self.width - 1 - (row - column)
     }
 
-    /// Adds to an entry on or below the diagonal and within the band.
+    /// Adds a block of two columns and two rows, below the diagonal and within the band.
     #[inline]
-    pub(crate) fn add(&mut self, row: usize, column: usize, value: f64) {
-        let place = self.place(row, column);
-        self.rows[place] += value;
+    pub(crate) fn add_below(&mut self, row: usize, column: usize, block: DMat2) {
+        let (upper, next) = (self.place(row, column), self.width - 1);
+        let entries = &mut self.rows[upper..=upper + self.width];
+        entries[0] += block.x_axis.x;
+        entries[1] += block.y_axis.x;
+        entries[next] += block.x_axis.y;
+        entries[next + 1] += block.y_axis.y;
+    }
+
+    /// Adds a symmetric block on the diagonal, from this row on.
+    #[inline]
+    pub(crate) fn add_on(&mut self, row: usize, block: DMat2) {
+        let (upper, next) = (self.place(row, row), self.width - 1);
+        let entries = &mut self.rows[upper..=upper + self.width];
+        entries[0] += block.x_axis.x;
+        entries[next] += block.y_axis.x;
+        entries[next + 1] += block.y_axis.y;
     }
 
     pub(crate) fn diagonal(&self, row: usize) -> f64 {

@@ -43,20 +43,20 @@ impl NormalSystem {
     }
 
     /// Adds a symmetric block to the diagonal of free vertex `b`.
+    #[inline]
     pub(crate) fn add_own(&mut self, b: usize, block: DMat2) {
         let row = 2 * self.place(b);
-        self.matrix.add(row, row, block.x_axis.x);
-        self.matrix.add(row + 1, row, block.y_axis.x);
-        self.matrix.add(row + 1, row + 1, block.y_axis.y);
+        self.matrix.add_on(row, block);
     }
 
     /// Adds a block whose rows belong to free vertex `a` and whose columns to free vertex `b`, with its mirror image.
+    #[inline]
     pub(crate) fn add_coupling(&mut self, a: usize, b: usize, block: DMat2) {
         let (a, b) = (2 * self.place(a), 2 * self.place(b));
-        let (row, column, block) = if a > b { (a, b, block) } else { (b, a, block.transpose()) };
-        for (side, entries) in [block.x_axis, block.y_axis].into_iter().enumerate() {
-            self.matrix.add(row, column + side, entries.x);
-            self.matrix.add(row + 1, column + side, entries.y);
+        if a > b {
+            self.matrix.add_below(a, b, block);
+        } else {
+            self.matrix.add_below(b, a, block.transpose());
         }
     }
 
