@@ -3,6 +3,7 @@
 
 mod construction;
 mod distances;
+mod elimination;
 mod error;
 mod graph;
 mod hierarchy;
