@@ -3,7 +3,10 @@
 //! ```text
 //! instance LAYER.json [--warm PREVIOUS.json] [--kicks PER_NODE | --budget-ms MS]
 //!          [--seed N] [--seeds N] [--rounds N] [--best UM] [--matrix-mb MB] [--compare]
+//! instance --make T [--seed N]
 //! ```
+//!
+//! The second prints such a file of T support points, made from the seed.
 //!
 //! Times are the least of some rounds, in milliseconds of one thread. `--warm` starts from the tour of another layer,
 //! whose own search is not timed. `--kicks` is the search's budget a node; `--budget-ms` chooses it so that candidates
@@ -43,6 +46,7 @@ fn main() -> ExitCode {
 /// What the command line asks for.
 struct Arguments {
     layer: String,
+    make: Option<usize>,
     warm: Option<String>,
     kicks: Option<f64>,
     budget_ms: Option<f64>,
@@ -58,6 +62,7 @@ impl Arguments {
     fn read(mut words: impl Iterator<Item = String>) -> Result<Self, Box<dyn Error>> {
         let mut read = Self {
             layer: String::new(),
+            make: None,
             warm: None,
             kicks: None,
             budget_ms: None,
@@ -71,6 +76,7 @@ impl Arguments {
         while let Some(word) = words.next() {
             let mut value = || words.next().ok_or_else(|| format!("{word} wants a value"));
             match word.as_str() {
+                "--make" => read.make = Some(value()?.parse()?),
                 "--warm" => read.warm = Some(value()?),
                 "--kicks" => read.kicks = Some(value()?.parse()?),
                 "--budget-ms" => read.budget_ms = Some(value()?.parse()?),
@@ -84,7 +90,7 @@ impl Arguments {
                 other => return Err(format!("{other} is not understood").into()),
             }
         }
-        if read.layer.is_empty() {
+        if read.layer.is_empty() && read.make.is_none() {
             return Err("which layer? Give the path of its JSON".into());
         }
         Ok(read)
@@ -145,6 +151,11 @@ fn within(budget_ms: f64, mut work: impl FnMut(f64) -> f64) -> f64 {
 
 fn run() -> Result<(), Box<dyn Error>> {
     let arguments = Arguments::read(env::args().skip(1))?;
+    if let Some(terminals) = arguments.make {
+        let made = Instance::made(terminals, arguments.seed)?;
+        writeln!(io::stdout(), "{}", serde_json::to_string(&made)?)?;
+        return Ok(());
+    }
     let read = |path: &String| -> Result<Instance, Box<dyn Error>> {
         let text = fs::read_to_string(path).map_err(|error| format!("{path}: {error}"))?;
         Instance::from_json(&text).map_err(|error| format!("{path}: {error}").into())
