@@ -4,8 +4,9 @@
     python3 benches/peers.py                    layers of 100, 200 and 400 support points, made from a seed
     python3 benches/peers.py LAYER.json …       layers as files, in the form that `instance` reads
 
-What is not installed is named and left out; `pip install scipy ortools elkai` installs all of it. Times are wall time in
-milliseconds on one thread, one after the other on the same machine, so that their ratios can be compared. Lengths are
+What is not installed is named and left out; `pip install scipy ortools elkai` installs all of it. Times are
+those of one thread, one after the other on the same machine, so that their ratios can be compared: of argil the least of some
+rounds by the clock, of the others the processor's, which is no longer. Lengths are
 whole micrometres: distances have to agree to the unit, and a difference is an error.
 """
 
@@ -37,12 +38,12 @@ except ImportError:
 
 
 def timed(work, rounds=1):
-    """The least time of some rounds in milliseconds, and the last result."""
+    """The least processor time of some rounds in milliseconds, and the last result."""
     least, done = float("inf"), None
     for _ in range(rounds):
-        start = time.perf_counter()
+        start = time.process_time()
         done = work()
-        least = min(least, (time.perf_counter() - start) * 1e3)
+        least = min(least, (time.process_time() - start) * 1e3)
     return least, done
 
 

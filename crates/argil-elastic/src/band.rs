@@ -114,8 +114,7 @@ impl Band {
                 square -= entry * entry;
                 sum -= entry * x[i - reach + c];
             }
-            // Also if it is not a number.
-            if !(square > 0.0) {
+            if square.is_nan() || square <= 0.0 {
                 return false;
             }
             inverse[i] = 1.0 / square.sqrt();

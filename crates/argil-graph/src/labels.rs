@@ -126,7 +126,7 @@ impl DistanceLabels<'_> {
         } else if (high as usize) < self.attachments {
             self.between_attachments(low, high as usize)
         } else {
-            self.from_attachment(low, high as usize)
+            self.to_attachment(low, high as usize)
         }
     }
 
@@ -163,7 +163,7 @@ impl DistanceLabels<'_> {
         least
     }
 
-    fn from_attachment(&self, attachment: usize, place: usize) -> f64 {
+    fn to_attachment(&self, attachment: usize, place: usize) -> f64 {
         let (rank, label) = (self.ranks[place], self.label(place));
         let shared = self.above(attachment).filter(|&(above, _)| self.tree.is_above(above, rank));
         shared.map(|(above, length)| length + label[self.tree.depth(above)]).fold(f64::INFINITY, f64::min)

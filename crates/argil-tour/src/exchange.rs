@@ -104,7 +104,7 @@ const fn partners(
 /// The other end of the piece that begins or ends at an end. Piece r is what lies between the cuts of ranks r − 1 and r.
 const fn far_end(count: usize, end: usize) -> usize {
     let cut = end / 2;
-    if end % 2 == 0 {
+    if end.is_multiple_of(2) {
         2 * if cut == 0 { count - 1 } else { cut - 1 } + 1
     } else {
         2 * if cut + 1 == count { 0 } else { cut + 1 }
