@@ -63,6 +63,7 @@ const PLAN_EXAMPLES: &str = "Examples:
   argil plan vase.stl -o vase.gcode --width 3 --layer-height 1 --height 120 --place center
   argil plan vase.stl -o vase.gcode --printer eazao-zero --material stoneware
   argil plan sample:cup -o cup.gcode --preview cup.html
+  argil plan sample:cup -o cup.gcode --cleaning cup-cleaning.html
   argil plan sample:cup -o cup.gcode --svg layers --report cup.json
 
 Exit status: 0 done, 2 wrong usage, 3 bad input, 4 a plan with findings.";
@@ -154,6 +155,9 @@ pub(crate) struct PlanArgs {
     /// Write a page for the browser that shows the beads in space, and the findings of the audit.
     #[arg(long, value_name = "OUT.html")]
     pub(crate) preview: Option<PathBuf>,
+    /// Write a page that says where to cut after printing, from the top down, with pictures.
+    #[arg(long, value_name = "OUT.html", conflicts_with = "no_audit")]
+    pub(crate) cleaning: Option<PathBuf>,
     /// Write an overview picture.
     #[arg(long, value_name = "OUT.png")]
     pub(crate) png: Option<PathBuf>,

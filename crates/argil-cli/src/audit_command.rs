@@ -10,6 +10,7 @@ use argil_audit::{AuditSettings, Report, audit};
 use crate::args::AuditArgs;
 use crate::failure::{FINDINGS, Failure};
 use crate::profiles::Profiles;
+use crate::progress::Waiting;
 use crate::{input, output};
 
 /// Measures a file and tells what it found.
@@ -22,8 +23,10 @@ pub(crate) fn run(args: &AuditArgs) -> Result<ExitCode, Failure> {
     let wanted = wanted(&settings);
     let wanted =
         AuditSettings { tolerance_width: args.tolerance_width.unwrap_or(wanted.tolerance_width), ..wanted };
+    let waiting = Waiting::new("auditing", false);
     let report = audit(&read_gcode(&String::from_utf8_lossy(&bytes)), &mesh, &wanted)
         .map_err(|source| Failure::input(&args.gcode.display().to_string(), source))?;
+    drop(waiting);
     if !args.json.as_deref().is_some_and(output::is_standard) {
         println!("{report}");
     }

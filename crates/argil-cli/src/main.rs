@@ -8,6 +8,7 @@
 mod args;
 mod audit_command;
 mod calibrate_command;
+mod cleaning_page;
 mod config;
 mod failure;
 mod input;

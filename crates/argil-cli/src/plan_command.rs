@@ -13,10 +13,11 @@ use argil_preview::{SvgStyle, ViewStyle, layer_svg, overview_svg, png};
 
 use crate::args::PlanArgs;
 use crate::audit_command::measure;
+use crate::cleaning_page::cleaning_page;
 use crate::failure::{FINDINGS, Failure};
 use crate::preview_page::preview_page;
 use crate::profiles::Profiles;
-use crate::progress::PlanBar;
+use crate::progress::{PlanBar, Waiting};
 use crate::report::{PlanReport, cleaning, is_finding, summary};
 use crate::{input, machine, output};
 
@@ -28,7 +29,8 @@ pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
     let profiles = Profiles::of(&args.bead)?;
     let settings = input::settings(&args.bead, &profiles)?;
     let mut written = machine::gcode_settings(&args.job(), &settings, &profiles)?;
-    let files = [&args.report, &args.strand, &args.png, &args.preview, &args.poses].map(Option::as_ref);
+    let files = [&args.report, &args.strand, &args.png, &args.preview, &args.cleaning, &args.poses]
+        .map(Option::as_ref);
     files.into_iter().chain([Some(&args.output)]).flatten().try_for_each(|path| output::check(path))?;
     let mesh = input::model(&args.model, args.place, &profiles)?;
     let plan =
@@ -49,6 +51,9 @@ pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
     if let Some(path) = &args.preview {
         let page = preview_page(&args.model, &settings, &written, &plan, audit.as_ref());
         output::write(path, page.as_bytes())?;
+    }
+    if let Some((path, audit)) = args.cleaning.as_ref().zip(audit.as_ref()) {
+        output::write(path, cleaning_page(&args.model, &plan, audit).as_bytes())?;
     }
     if let Some(path) = &args.strand {
         output::write(path, &json(&plan.strand)?)?;
@@ -137,6 +142,7 @@ fn audited_and_drawn(
     mesh: &Mesh,
     settings: &Settings,
 ) -> Result<Option<Report>, Failure> {
+    let _waiting = Waiting::new(if args.no_audit { "drawing" } else { "auditing" }, args.quiet);
     let audit = || (!args.no_audit).then(|| measure(gcode, mesh, settings)).transpose();
     let (report, drawn) = if args.threads > 1 {
         thread::scope(|scope| {

@@ -25,13 +25,18 @@ pub(crate) fn preview_page(
         findings.chain(report.contacts.iter().map(contact))
     });
     let style = PageStyle {
-        title: format!("{} – argil", model.rsplit(['/', '\\']).next().unwrap_or(model)),
+        title: format!("{} – argil", short_name(model)),
         facts: facts(settings, plan, audit),
         marks: found.chain(plan.losses.iter().map(loss)).collect(),
         speeds: [gcode.first_layer_feed, gcode.feed],
         ..PageStyle::default()
     };
     page_html(&plan.strand, &style)
+}
+
+/// A model without the folders that it is in.
+pub(crate) fn short_name(model: &str) -> &str {
+    model.rsplit(['/', '\\']).next().unwrap_or(model)
 }
 
 fn facts(settings: &Settings, plan: &Plan, audit: Option<&Report>) -> Vec<(String, String)> {
@@ -100,6 +105,7 @@ fn loss(loss: &Loss) -> PageMark {
     let (kind, measure, unit) = match *loss {
         Loss::OpenOutline { length, .. } => ("open outline left out", length, "mm"),
         Loss::Thin { area, .. } => ("thinner than a bead", area, "mm²"),
+        Loss::Narrow { length, .. } => ("part thinner than a bead", length, "mm"),
         Loss::Vanished { area, .. } => ("too small to print", area, "mm²"),
         Loss::Branch { area, .. } => ("branch thinner than a bead", area, "mm²"),
         Loss::Unsound { length, .. } => ("wall left out", length, "mm"),

@@ -2,7 +2,9 @@
 #![forbid(unsafe_code)]
 
 mod base64;
+mod cleaning;
 mod colour;
+mod cut;
 mod layer;
 mod markup;
 mod outline;
@@ -14,6 +16,7 @@ mod raster;
 mod simplify;
 mod thumbnail;
 
+pub use cleaning::{CleaningStyle, CutPlace, cleaning_html};
 pub use colour::{Colour, Palette};
 pub use layer::{SvgStyle, layer_svg};
 pub use overview::{ViewStyle, overview_svg};

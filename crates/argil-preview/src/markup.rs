@@ -8,7 +8,8 @@ pub(crate) struct Num(pub(crate) f64);
 
 impl fmt::Display for Num {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let value = if self.0.is_finite() { (self.0 * 1000.0).round() / 1000.0 } else { 0.0 };
+        let rounded = (self.0 * 1000.0).round() / 1000.0;
+        let value = if rounded.is_finite() { rounded } else { 0.0 };
         // Adding 0 turns -0 into 0.
         write!(f, "{}", value + 0.0)
     }
@@ -50,5 +51,6 @@ mod tests {
     fn numbers_are_short_and_finite() {
         let text = |value: f64| Num(value).to_string();
         assert_eq!([text(1.0), text(-0.0001), text(2.34567), text(f64::NAN)], ["1", "0", "2.346", "0"]);
+        assert_eq!([text(f64::INFINITY), text(f64::MAX)], ["0", "0"]);
     }
 }

@@ -64,6 +64,32 @@
       finger("pointerup", 2, 320, 310);
     });
 
+    // Frames in motion may be coarser, but show the same.
+    find("[data-view=fit]").click();
+    page.density = 0.5;
+    page.draw(true);
+    expect(find("#view").width < page.camera.width, "frames that come late are not drawn with fewer pixels");
+    expect(find("#notice").textContent.includes("Coarser"), "nothing tells that it is coarser");
+    page.density = 1;
+    page.draw(false);
+    expect(find("#view").width >= page.camera.width, "it stays coarse when it stands still");
+    if (page.view.image) {
+      const pixels = (moving) => {
+        const whole = [1, page.plan.moves, { density: 1, background: page.background(), moving }];
+        page.view.draw(page.camera, ...whole);
+        return page.view.image.data.slice();
+      };
+      const [still, fast] = [pixels(false), pixels(true)];
+      const paper = page.background();
+      let drawn = 0, other = 0;
+      for (let k = 0; k < still.length; k += 4) {
+        const off = (a, b) => [0, 1, 2].some((c) => Math.abs(a[k + c] - (b === paper ? paper[c] : b[k + c])) > 48);
+        if (off(still, paper)) drawn++;
+        if (off(still, fast)) other++;
+      }
+      expect(drawn > 1000 && other < 0.03 * drawn, `${other} of ${drawn} pixels look otherwise in motion`);
+    }
+
     find("[data-view=fit]").click();
     use("#place", 3000);
     changes("playing", () => {

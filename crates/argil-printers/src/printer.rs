@@ -98,6 +98,9 @@ pub struct Printer {
     pub contradictions: Vec<String>,
     /// The space that it can reach.
     pub volume: Fact<Volume>,
+    /// The middle of that space, where it is not half of it from the corner.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub middle: Option<Fact<[f64; 2]>>,
     /// Where x = y = 0 is.
     pub origin: Fact<Origin>,
     /// What language it reads.
@@ -157,6 +160,11 @@ impl Printer {
 
     /// The middle of the bed, if it is known.
     pub fn middle(&self) -> Option<[f64; 2]> {
+        let told = self.middle.as_ref().and_then(Fact::value).copied();
+        told.or_else(|| self.middle_of_volume())
+    }
+
+    fn middle_of_volume(&self) -> Option<[f64; 2]> {
         match (self.origin.value()?, self.volume.value()?) {
             (Origin::Centre, _) => Some([0.0, 0.0]),
             (Origin::Corner, Volume::Box { x, y, .. }) => Some([x / 2.0, y / 2.0]),
@@ -178,6 +186,7 @@ impl Printer {
     fn check(&self) -> Result<(), ProfileError> {
         let Self { sources, .. } = self;
         self.volume.check_source("volume", sources)?;
+        self.middle.iter().try_for_each(|fact| fact.check_source("middle", sources))?;
         self.origin.check_source("origin", sources)?;
         self.flavour.check_source("flavour", sources)?;
         self.relative_e.check_source("relative_e", sources)?;
@@ -207,6 +216,8 @@ impl Printer {
             Some(Volume::Round { diameter, z }) => vec![*diameter, *z],
             None => vec![],
         };
-        lengths.iter().try_for_each(|v| within("volume", Some(v), 1.0, 1e6, "between 1 and 1,000,000 mm"))
+        lengths.iter().try_for_each(|v| within("volume", Some(v), 1.0, 1e6, "between 1 and 1,000,000 mm"))?;
+        let mut middle = self.middle.as_ref().and_then(Fact::value).into_iter().flatten();
+        middle.try_for_each(|v| within("middle", Some(v), -1e6, 1e6, "between -1,000,000 and 1,000,000 mm"))
     }
 }

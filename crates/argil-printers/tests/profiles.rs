@@ -50,6 +50,24 @@ fn printers_are_sound_and_their_code_is_safe() {
 }
 
 #[test]
+fn e_is_the_filament_that_the_note_names() {
+    let mut told = 0;
+    for (name, text) in printers() {
+        let printer = Printer::from_toml(text).unwrap();
+        let Some((_, Some(note))) = printer.mm3_per_e.origin() else { continue };
+        let Some(diameter) =
+            note.strip_prefix("mm of a filament of ").and_then(|rest| rest.strip_suffix(" mm"))
+        else {
+            continue;
+        };
+        let area = std::f64::consts::PI * diameter.parse::<f64>().unwrap().powi(2) / 4.0;
+        assert!((printer.mm3_per_e.value().unwrap() - area).abs() < 1e-3, "{name}: {area}");
+        told += 1;
+    }
+    assert!(told > 6, "{told}");
+}
+
+#[test]
 fn materials_are_sound() {
     for (name, text) in materials() {
         let material = Material::from_toml(text).unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -87,6 +105,11 @@ fn reach_is_that_of_the_bed() {
     assert_eq!(delta.middle(), Some([0.0, 0.0]));
     assert_eq!(delta.reaches([-70.0, -70.0, 0.0], [70.0, 70.0, 400.0]), Some(true));
     assert_eq!(delta.reaches([-80.0, -80.0, 0.0], [70.0, 70.0, 10.0]), Some(false));
+    // Prints run from 17 to 398 mm and from 12 to 393 mm.
+    let large = Printer::bundled("potterbot-10-xl").unwrap().unwrap();
+    assert_eq!(large.middle(), Some([207.5, 202.5]));
+    assert_eq!(large.reaches([17.0, 12.0, 0.0], [398.0, 393.0, 710.0]), Some(true));
+    assert_eq!(large.reaches([16.0, 12.0, 0.0], [398.0, 393.0, 710.0]), Some(false));
     assert_eq!(Printer::bundled("robot-cell").unwrap().unwrap().reaches([0.0; 3], [1.0; 3]), None);
 }
 

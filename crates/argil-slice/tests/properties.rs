@@ -239,8 +239,8 @@ fn check_cover(layer: &Layer, width: f64) -> Result<(), TestCaseError> {
 }
 
 proptest! {
-    // Always the same bodies, so that the gate says the same twice: of other draws about one in three hundred has a lane of a spine
-    // that leaves its outline.
+    // Always the same bodies, so that the gate says the same twice: of other draws some, all of them thin tubes, have a lane of a
+    // spine that leaves its outline.
     #![proptest_config(ProptestConfig { cases: 40, rng_seed: RngSeed::Fixed(1), failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]

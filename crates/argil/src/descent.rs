@@ -13,7 +13,7 @@ use geo_types::MultiPolygon;
 use crate::blunt::blunted;
 use crate::clearance::SafeguardField;
 use crate::error::LayerFault;
-use crate::foothold::{Foothold, foothold, hold_start};
+use crate::foothold::{Foothold, foothold, hold_start, rechained};
 use crate::hold::{Check, Fault};
 use crate::passage::Walled;
 use crate::stages::{Route, Smooth, Support, Tauten};
@@ -36,6 +36,9 @@ type Flaw = (LayerFault, Option<DVec2>);
 
 /// How often a layer is planned again with the places of what is wrong barred.
 const RETRIES: usize = 3;
+
+/// How often sharp turns are cut: a cut may leave two that are sharp themselves, or not hold what the turn held and be given up.
+const BLUNTINGS: usize = 6;
 
 /// What the attempts at a layer share.
 struct Site<'a> {
@@ -92,8 +95,13 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
                 PlanError::Layer { layer: layer.index, near: at.or(near).unwrap_or_default(), fault }
             })?;
             let below = k.checked_sub(1).map_or_else(|| SegmentIndex::new(Vec::new(), 1.0), walls_of);
-            let from = above.zip(start);
-            let place = foothold(&done.curve, from, [&walls_of(k), &below], &self.settings.seaming());
+            let (standing, seam) = ([&walls_of(k), &below], self.settings.seaming());
+            let place = foothold(&done.curve, above.zip(start), standing, &seam).or_else(|| {
+                let (place, arcs) = rechained(&done.curve, &planned, &below, &seam)?;
+                planned.iter_mut().zip(arcs).for_each(|(layer, arc)| layer.foothold = arc);
+                Some(place)
+            });
+            let place = place.unwrap_or_else(|| Foothold::nearest(&done.curve, start));
             start = Some(place);
             planned.push(PlannedLayer { foothold: place.arc, ..done });
             observe(Progress::Layer { index: layer.index });
@@ -126,8 +134,8 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
         let passages = |done: &Attempt| walled.passages(&done.curve);
         let mut barred = Vec::new();
         let mut best = self.attempt(&site, &barred);
-        let mut fewest = best.as_ref().map_or(usize::MAX, |done| passages(done).len());
         let mut flawed = places(&best, passages);
+        let mut fewest = if best.is_ok() { flawed.len() } else { usize::MAX };
         for _ in 0..RETRIES {
             if flawed.is_empty() || !self.checked {
                 break;
@@ -189,13 +197,14 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
             check.rounded(&mut taut, &candidate.fixed);
             let points = if self.checked && check.fault(&taut).is_some() { points } else { taut };
             let mut cycle = Cycle { points, ..candidate };
-            for _ in 0..3 {
-                let Some(mut next) = blunted(&cycle, settings.width) else { break };
+            let mut spared = Vec::new();
+            for _ in 0..BLUNTINGS {
+                let Some(mut next) = blunted(&cycle, settings.width, &spared) else { break };
                 check.rounded(&mut next.points, &next.fixed);
-                if self.checked && check.fault(&next.points).is_some() {
-                    break;
+                match check.fault(&next.points).filter(|_| self.checked) {
+                    None => cycle = next,
+                    Some(Fault::Unsupported { at, .. } | Fault::Crossing { at }) => spared.extend(at),
                 }
-                cycle = next;
             }
             cycle
         });

@@ -6,10 +6,11 @@
 //! asked to hold it. On walls that stand on walls this costs nothing. The seam stage is free to find a better chain.
 
 use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex};
-use argil_seam::{SeamSettings, is_clear};
+use argil_seam::{SeamSettings, is_clear, seam_chain_among};
 use argil_support::SupportPoint;
 
 use crate::Settings;
+use crate::descent::PlannedLayer;
 
 /// Share of the longest step that is used, so that starts on the seam stage's own spacing reach each other too.
 const STEP: f64 = 0.85;
@@ -36,6 +37,14 @@ pub(crate) struct Foothold {
     pub(crate) toward: Option<DVec2>,
 }
 
+impl Foothold {
+    /// The place on a cycle that is nearest to the start above: what there is where nothing leads up to that.
+    pub(crate) fn nearest(cycle: &ClosedCurve, above: Option<Self>) -> Self {
+        let arc = above.map_or(0.0, |start| cycle.nearest(start.at).s);
+        Self { at: cycle.point_at(arc), arc, over_wall: false, toward: None }
+    }
+}
+
 /// The start on a planned cycle: within a step of the start above, over the walls below where one is, else as near
 /// to them as can be had, so that the starts make for the walls. `above` is the cycle above with its start; the step
 /// up to it must cross nothing there. `walls` are those of this layer and of the one below.
@@ -43,12 +52,14 @@ pub(crate) struct Foothold {
 /// A wall that lies near but on the far side of a strand of this cycle is no help: under a dome every wall lies outside
 /// of the one above, and what stands inside can be reached from inside only. Where walls lean to one side, there are some on
 /// the other side that lie inside: the starts make for these.
+///
+/// `None` where no place leads up to the start above.
 pub(crate) fn foothold(
     cycle: &ClosedCurve,
     above: Option<(&ClosedCurve, Foothold)>,
     walls: [&SegmentIndex; 2],
     seam: &SeamSettings,
-) -> Foothold {
+) -> Option<Foothold> {
     let [here, below] = walls;
     let count = (cycle.length() / seam.spacing).ceil().clamp(4.0, 1e6) as usize;
     let nearest = above.map_or(0.0, |(_, start)| cycle.nearest(start.at).s);
@@ -70,26 +81,66 @@ pub(crate) fn foothold(
         (led, hanging, step, Foothold { at, arc, over_wall, toward: None })
     });
     let rated: Vec<(bool, f64, f64, Foothold)> = rated.collect();
-    let best = |led: bool, far: &dyn Fn(&Foothold, f64) -> f64| {
+    let best = |led: bool, step: f64, far: &dyn Fn(&Foothold, f64) -> f64| {
         rated
             .iter()
-            .filter(|place| place.0 == led)
+            .filter(|place| place.0 == led && place.2 <= step)
             .map(|&(_, hanging, step, place)| (far(&place, hanging), step, place))
             .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)))
             .map(|(_, _, place)| place)
     };
+    let [short, long] = [0.5, 1.0].map(|share| share * STEP * seam.reach);
     let trapped = || {
         let from = above.map_or(cycle.point_at(nearest), |(_, start)| start.at);
         let toward = wall_in_sight(from, here, below, LOOK / 0.73 * seam.reach);
-        let far = |place: &Foothold, hanging: f64| toward.map_or(hanging, |wall| wall.distance(place.at));
-        best(false, &far).map(|place| Foothold { toward, ..place })
+        // What holds a start may pass on either side of it.
+        let shut = |place: &Foothold| if is_open(cycle, place.arc, seam.across) { 0.0 } else { seam.reach };
+        let far = |place: &Foothold, hanging: f64| {
+            shut(place) + toward.map_or(hanging, |wall| wall.distance(place.at))
+        };
+        best(false, short, &far).or_else(|| best(false, long, &far)).map(|place| Foothold { toward, ..place })
     };
-    best(true, &|_, hanging| hanging).or_else(trapped).unwrap_or(Foothold {
-        at: cycle.point_at(nearest),
-        arc: nearest,
-        over_wall: false,
-        toward: None,
-    })
+    let hangs = |_: &Foothold, hanging: f64| hanging;
+    best(true, short, &hangs).or_else(|| best(true, long, &hangs)).or_else(trapped)
+}
+
+/// Whether a cycle may be stepped on at an arc from as far away as what holds it may be, from either side.
+fn is_open(cycle: &ClosedCurve, arc: f64, across: f64) -> bool {
+    let at = cycle.point_at(arc);
+    let ahead =
+        cycle.point_at(cycle.wrapped(arc + 0.1 * across)) - cycle.point_at(cycle.wrapped(arc - 0.1 * across));
+    let side = across * ahead.normalize_or(DVec2::X).perp();
+    [side, -side].into_iter().all(|side| is_clear(&Segment::new(at + side, at), arc, cycle))
+}
+
+/// A chain of starts through all cycles planned so far and `cycle`, which lies below them, with other starts than were kept open: where
+/// none on `cycle` leads up to the start above, another start there, or further up, may have some. `planned` is top first.
+/// Returns the start on `cycle`, near a wall below if that can be, and the arcs of the others, top first; `None` where no chain exists.
+///
+/// # Complexity
+/// As [`seam_chain_among`], over all layers above. It is hardly ever needed.
+pub(crate) fn rechained(
+    cycle: &ClosedCurve,
+    planned: &[PlannedLayer],
+    below: &SegmentIndex,
+    seam: &SeamSettings,
+) -> Option<(Foothold, Vec<f64>)> {
+    let cycles: Vec<ClosedCurve> =
+        std::iter::once(cycle).chain(planned.iter().rev().map(|layer| &layer.curve)).cloned().collect();
+    let also: Vec<f64> =
+        std::iter::once(0.0).chain(planned.iter().rev().map(|layer| layer.foothold)).collect();
+    let held = HELD * seam.across;
+    let hanging = |p: DVec2| below.nearest(p).map_or(0.0, |wall| (wall.distance - held).max(0.0));
+    let cost = |layer: usize, p: DVec2| if layer == 0 { hanging(p).powi(2) } else { 0.0 };
+    let narrow = SeamSettings { across: held, reach: STEP * seam.reach, ..*seam };
+    let mut arcs = seam_chain_among(&cycles, &also, &narrow, &cost).ok()?;
+    let arc = arcs.remove(0);
+    let at = cycle.point_at(arc);
+    let over_wall = below
+        .nearest(at)
+        .is_some_and(|wall| wall.distance <= held && is_clear(&Segment::new(wall.point, at), arc, cycle));
+    arcs.reverse();
+    Some((Foothold { at, arc, over_wall, toward: None }, arcs))
 }
 
 /// The place on the walls below that is nearest to a point and not behind a wall of its own layer.
@@ -137,6 +188,7 @@ pub(crate) fn hold_start(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::LayerReport;
 
     fn ring(radius: f64) -> ClosedCurve {
         let points = (0..48).map(|k| radius * DVec2::from_angle(f64::from(k) * std::f64::consts::TAU / 48.0));
@@ -160,7 +212,8 @@ mod tests {
         };
         let mut start = on(&strand(0), DVec2::new(4.0, 0.0));
         for layer in 1..10 {
-            let next = foothold(&strand(layer), Some((&strand(layer - 1), start)), [&none, &walls], &seam);
+            let next =
+                foothold(&strand(layer), Some((&strand(layer - 1), start)), [&none, &walls], &seam).unwrap();
             assert!(next.at.distance(start.at) <= seam.reach);
             start = next;
         }
@@ -200,9 +253,45 @@ mod tests {
         let cycle = ClosedCurve::new(points).unwrap();
         let walls = SegmentIndex::of_curves([&ring(10.2)], 1.5);
         let none = SegmentIndex::new(Vec::new(), 1.5);
-        let inside = DVec2::new(7.0, 0.0);
+        let inside = DVec2::new(7.2, 0.0);
         let inside = Foothold { at: inside, arc: 0.0, over_wall: false, toward: None };
-        let tip = foothold(&cycle, Some((&ring(7.0), inside)), [&none, &walls], &seam);
+        let tip = foothold(&cycle, Some((&ring(7.2), inside)), [&none, &walls], &seam).unwrap();
         assert!(tip.at.length() < 9.9 && !tip.over_wall, "{tip:?}");
+    }
+
+    #[test]
+    fn a_start_that_nothing_leads_up_to_gives_way_to_one_that_something_does() {
+        let seam = SeamSettings::for_width(1.5);
+        let none = SegmentIndex::new(Vec::new(), 1.5);
+        let curve = |points: &[(f64, f64)]| {
+            ClosedCurve::new(points.iter().map(|&p| DVec2::from(p)).collect()).unwrap()
+        };
+        // The start lies in a pocket of its cycle whose mouth is shut; the strand below passes outside of it.
+        let pocket = [
+            (0.0, 0.0),
+            (0.0, 0.4),
+            (-0.2, 0.4),
+            (-0.2, -0.2),
+            (0.2, -0.2),
+            (0.2, 0.4),
+            (0.05, 0.4),
+            (0.05, 0.0),
+        ];
+        let above = curve(&pocket);
+        let below = curve(&[(-1.0, -0.6), (1.0, -0.6), (0.3, -0.25), (-0.3, -0.25)]);
+        let hidden = above.nearest(DVec2::new(0.0, 0.2));
+        let start = Foothold { at: hidden.point, arc: hidden.s, over_wall: false, toward: None };
+        assert_eq!(foothold(&below, Some((&above, start)), [&none, &none], &seam), None);
+        let planned = PlannedLayer {
+            report: LayerReport::default(),
+            z: 0.0,
+            curve: above.clone(),
+            legs: Vec::new(),
+            supports: Vec::new(),
+            foothold: hidden.s,
+        };
+        let (start, arcs) = rechained(&below, &[planned], &none, &seam).unwrap();
+        let step = Segment::new(start.at, above.point_at(arcs[0]));
+        assert!(step.length() <= seam.reach && is_clear(&step, arcs[0], &above));
     }
 }

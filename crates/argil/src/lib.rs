@@ -36,6 +36,7 @@ mod plan;
 mod planner;
 mod settings;
 pub mod stages;
+mod starts;
 
 pub use argil_curve as curve;
 pub use argil_elastic as elastic;
@@ -61,6 +62,8 @@ mod pages {
     struct Crate;
     #[doc = include_str!("../../../README.md")]
     struct Workspace;
+    #[doc = include_str!("../../../docs/SLICERS.md")]
+    struct Slicers;
     #[doc = include_str!("../../argil-route/README.md")]
     struct Route;
 }

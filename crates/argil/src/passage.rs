@@ -54,22 +54,22 @@ impl Walled {
         }
         let count = (path.length() / (STEP * self.width)).ceil().clamp(3.0, 1e7) as usize;
         let step = path.length() / count as f64;
+        let sample = |k: usize| path.point_at(((k % count) as f64 + 0.5) * step);
+        let is_free_at = |p: DVec2| !self.sides.is_within(p, BESIDE * self.width);
+        // Once round, from free strand to the same: what begins beside the wall would have no side to come from.
+        let Some(first) = (0..count).find(|&k| is_free_at(sample(k))) else { return Vec::new() };
         let mut found = Vec::new();
         // The side that the path was on before it met the wall, and how long it has run along the wall since.
-        let (mut last, mut run) = (None, 0.0);
-        let mut is_free = false;
-        for k in 0..count {
-            let p = path.point_at((k as f64 + 0.5) * step);
-            if self.sides.is_within(p, BESIDE * self.width) {
+        let (mut side, mut run) = (self.contains(sample(first)), 0.0);
+        for p in (first + 1..=first + count).map(sample) {
+            if !is_free_at(p) {
                 run += step;
-                is_free = false;
-            } else if !is_free {
-                is_free = true;
-                let inside = self.contains(p);
-                if last.is_some_and(|side| side != inside) && run < ALONG * self.width {
+            } else if run > 0.0 {
+                let now = self.contains(p);
+                if now != side && run < ALONG * self.width {
                     found.push(p);
                 }
-                (last, run) = (Some(inside), 0.0);
+                (side, run) = (now, 0.0);
             }
         }
         found
@@ -111,6 +111,16 @@ mod tests {
         let found = tile().passages(&pierced);
         assert_eq!(found.len(), 2, "in and out again: {found:?}");
         assert!(found.iter().all(|p| p.y.abs() < 1.0));
+    }
+
+    #[test]
+    fn where_the_path_begins_makes_no_difference() {
+        let corners = [(5.0, -3.0), (8.0, -3.0), (8.0, 0.0), (8.2, 0.0), (8.2, 4.0), (5.0, 4.0)];
+        let mut turned = corners;
+        for _ in corners {
+            turned.rotate_left(1);
+            assert_eq!(tile().passages(&path(&turned)).len(), 2, "begun at {:?}", turned[0]);
+        }
     }
 
     #[test]

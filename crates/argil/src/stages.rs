@@ -64,8 +64,8 @@ pub trait Tauten {
 
 /// Chooses where each layer begins.
 pub trait Seam {
-    /// The arc of the start on each cycle, bottom first. `footholds` are the arcs of a chain that was kept open while the
-    /// layers were planned, one a cycle.
+    /// The arc of the start on each cycle, bottom first, no step longer than `reach`, mm. `footholds` are the arcs of a
+    /// chain that was kept open while the layers were planned, one a cycle.
     ///
     /// # Errors
     /// When two layers cannot be joined by a short, held step.
@@ -73,6 +73,7 @@ pub trait Seam {
         &mut self,
         cycles: &[ClosedCurve],
         footholds: &[f64],
+        reach: f64,
         settings: &Settings,
         cost: &dyn Fn(usize, DVec2) -> f64,
     ) -> Result<Vec<f64>, SeamError>;
@@ -164,13 +165,11 @@ impl Seam for BestChain {
         &mut self,
         cycles: &[ClosedCurve],
         footholds: &[f64],
+        reach: f64,
         settings: &Settings,
         cost: &dyn Fn(usize, DVec2) -> f64,
     ) -> Result<Vec<f64>, SeamError> {
-        let usual = settings.seaming();
-        // Most prints have a chain of steps half as long as they may be, and short steps show less.
-        let short = SeamSettings { reach: 0.5 * usual.reach, ..usual };
-        argil_seam::seam_chain_among(cycles, footholds, &short, cost)
-            .or_else(|_| argil_seam::seam_chain_among(cycles, footholds, &usual, cost))
+        let seaming = SeamSettings { reach, ..settings.seaming() };
+        argil_seam::seam_chain_among(cycles, footholds, &seaming, cost)
     }
 }

@@ -150,6 +150,13 @@ class BeadTables {
         }
       }
     }
-    return { half, size, depth, shade };
+    // Where each row begins and ends.
+    const begins = new Int32Array(size), ends = new Int32Array(size);
+    for (let v = 0; v < size; v++) {
+      const row = depth.subarray(v * size, (v + 1) * size);
+      begins[v] = row.findIndex((d) => d > -Infinity);
+      ends[v] = begins[v] < 0 ? begins[v] : row.findLastIndex((d) => d > -Infinity) + 1;
+    }
+    return { half, size, depth, shade, begins, ends };
   }
 }

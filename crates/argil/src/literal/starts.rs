@@ -21,6 +21,7 @@ impl Seam for NearestStarts {
         &mut self,
         cycles: &[ClosedCurve],
         _footholds: &[f64],
+        _reach: f64,
         _settings: &Settings,
         _cost: &dyn Fn(usize, DVec2) -> f64,
     ) -> Result<Vec<f64>, SeamError> {

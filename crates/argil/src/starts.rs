@@ -1,0 +1,292 @@
+//! Where each layer begins, and the steps from layer to layer.
+
+use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex};
+use argil_route::Leg;
+use argil_seam::SeamError;
+use argil_strand::{Move, Role};
+
+use crate::Settings;
+use crate::descent::PlannedLayer;
+use crate::stages::Seam;
+
+/// What a start on a wall costs against one on free strand, in w²: the seam shows on a wall, while clay that is cut
+/// away hides it. A quarter of the longest step squared, so that it never outweighs a good chain.
+const VISIBLE: f64 = 0.13;
+/// How far from roots starts on a wall keep, in w, where there is a chain of such starts: a step that comes from the other side of the
+/// wall would make the strand pass straight through it, with less than a bead along the wall between. The second is tried
+/// where the first leaves no chain.
+const ROOT_REACH: [f64; 2] = [1.1, 0.6];
+/// Most prints have a chain of steps this part as long as they may be. A long step sags, so it is tried first at both
+/// distances from roots.
+const SHORT: f64 = 0.5;
+/// What a start right at a root costs where neither does, in w²; less with the square of the distance.
+const AT_ROOT: f64 = 4.0;
+
+/// A start gives way along its cycle in shifts of this, in w, so many times at most before other parts of the cycle are tried.
+const SHIFT: f64 = 0.02;
+const SHIFTS: i32 = 60;
+
+/// How often the chain is sought again with starts left out that no short, clear step leads to once they are on the grid.
+const REPLANS: usize = 8;
+/// How far round a start that is left out none lies, in w.
+const LEFT_OUT: f64 = 0.3;
+
+/// A layer opened at its start: the place, and the moves from there back to it.
+pub(crate) type Opened = (DVec2, Vec<Move>);
+
+/// The layers, each opened at a start that a short, clear and held step leads to. Where they are not `checked`, the starts stay where the
+/// seam stage wants them.
+///
+/// # Errors
+/// Those of the seam stage; [`SeamError::NoStep`] where a start gives way on the grid and no other place of its layer will do.
+pub(crate) fn opened_layers(
+    layers: &[PlannedLayer],
+    seam: &mut impl Seam,
+    settings: &Settings,
+    checked: bool,
+) -> Result<Vec<Opened>, SeamError> {
+    let stack = Stack::new(layers, settings);
+    let longest = settings.seaming().reach;
+    let levels = levels(longest);
+    let nothing = vec![Vec::new(); layers.len()];
+    let (mut level, starts) = stack.chain(seam, &levels, &nothing)?;
+    if !checked {
+        let opened = |(layer, start): (_, &f64)| opened(layer, *start, settings.grid);
+        return Ok(layers.iter().zip(&starts).map(opened).collect());
+    }
+    let (mut left_out, mut tried) = (nothing, starts.clone());
+    for _ in 0..REPLANS {
+        match stack.climbed(&tried, &[levels[level].reach], false) {
+            Ok(climbed) => return Ok(climbed),
+            Err(stuck) => stuck.iter().for_each(|&k| left_out[k].push(stack.cycles[k].point_at(tried[k]))),
+        }
+        let Ok((next, starts)) = stack.chain(seam, &levels[level..], &left_out) else { break };
+        (level, tried) = (level + next, starts);
+    }
+    stack.climbed(&starts, &[levels[0].reach, longest], true).map_err(|stuck| {
+        let layer = stuck.first().copied().unwrap_or_default();
+        let below = layer.checked_sub(1).map_or(DVec2::ZERO, |k| stack.cycles[k].point_at(starts[k]));
+        SeamError::NoStep { layer, below, gap: stack.cycles[layer].nearest(below).distance }
+    })
+}
+
+/// What is asked of a chain of starts.
+struct Level {
+    /// The longest step, mm.
+    reach: f64,
+    roots: Roots,
+}
+
+/// What it costs to start beside a root.
+enum Roots {
+    /// Starts on a wall keep this far from them, in w.
+    Beyond(f64),
+    /// The nearer, the dearer.
+    Graded,
+}
+
+/// The best first. The last forbids no place.
+fn levels(longest: f64) -> [Level; 5] {
+    let [far, near] = ROOT_REACH;
+    let short = SHORT * longest;
+    let level = |reach, roots| Level { reach, roots };
+    [
+        level(short, Roots::Beyond(far)),
+        level(short, Roots::Beyond(near)),
+        level(longest, Roots::Beyond(far)),
+        level(longest, Roots::Beyond(near)),
+        level(longest, Roots::Graded),
+    ]
+}
+
+impl Level {
+    /// What a start on a wall costs at a distance from the nearest root, both in w.
+    fn beside_root(&self, from_root: f64) -> f64 {
+        match self.roots {
+            Roots::Beyond(reach) if from_root < reach => f64::INFINITY,
+            Roots::Beyond(_) => 0.0,
+            Roots::Graded => AT_ROOT * (1.0 - from_root / ROOT_REACH[0]).max(0.0).powi(2),
+        }
+    }
+}
+
+/// The planned layers, bottom first, and what matters to where they begin.
+struct Stack<'a> {
+    layers: &'a [PlannedLayer],
+    settings: &'a Settings,
+    cycles: Vec<ClosedCurve>,
+    sights: Vec<Sight>,
+    footholds: Vec<f64>,
+}
+
+impl<'a> Stack<'a> {
+    fn new(layers: &'a [PlannedLayer], settings: &'a Settings) -> Self {
+        Self {
+            layers,
+            settings,
+            cycles: layers.iter().map(|layer| layer.curve.clone()).collect(),
+            sights: layers.iter().map(|layer| Sight::of(layer, settings.width)).collect(),
+            footholds: layers.iter().map(|layer| layer.foothold).collect(),
+        }
+    }
+
+    /// The first of the levels that some chain meets, and that chain; `left_out` are places, by layer, where none may start.
+    fn chain(
+        &self,
+        seam: &mut impl Seam,
+        levels: &[Level],
+        left_out: &[Vec<DVec2>],
+    ) -> Result<(usize, Vec<f64>), SeamError> {
+        let width = self.settings.width;
+        let mut fault = SeamError::NoStart;
+        for (k, level) in levels.iter().enumerate() {
+            let cost = |layer: usize, p: DVec2| {
+                if left_out[layer].iter().any(|place| place.distance(p) < LEFT_OUT * width) {
+                    return f64::INFINITY;
+                }
+                let visible = |from_root: f64| (VISIBLE + level.beside_root(from_root)) * width * width;
+                self.sights[layer].on_wall(p).map_or(0.0, visible)
+            };
+            match seam.starts(&self.cycles, &self.footholds, level.reach, self.settings, &cost) {
+                Ok(starts) => return Ok((k, starts)),
+                Err(why) => fault = why,
+            }
+        }
+        Err(fault)
+    }
+
+    /// The layers opened at their starts, or near them, by steps no longer than the first of the reaches that will do.
+    ///
+    /// # Errors
+    /// The layers that no step leads to.
+    fn climbed(&self, starts: &[f64], reaches: &[f64], anywhere: bool) -> Result<Vec<Opened>, Vec<usize>> {
+        let mut climbed: Vec<Opened> = Vec::with_capacity(starts.len());
+        let mut stuck = Vec::new();
+        for (k, (layer, &start)) in self.layers.iter().zip(starts).enumerate() {
+            let cleared = match climbed.last() {
+                None => None,
+                Some((from, _)) => {
+                    let (below, sight) = (&self.cycles[k - 1], &self.sights[k]);
+                    let step = Step { from: *from, below, layer, sight, settings: self.settings };
+                    let cleared = reaches.iter().find_map(|&reach| step.cleared(start, reach, anywhere));
+                    if cleared.is_none() {
+                        stuck.push(k);
+                    }
+                    cleared
+                }
+            };
+            climbed.push(cleared.unwrap_or_else(|| opened(layer, start, self.settings.grid)));
+        }
+        if stuck.is_empty() { Ok(climbed) } else { Err(stuck) }
+    }
+}
+
+/// The step from the end of one layer to the start of the next.
+struct Step<'a> {
+    from: DVec2,
+    below: &'a ClosedCurve,
+    layer: &'a PlannedLayer,
+    sight: &'a Sight,
+    settings: &'a Settings,
+}
+
+impl Step<'_> {
+    /// The cycle opened at `start`, or at the nearest place along it to which the step is clear, held and no longer than `reach`: a step
+    /// that runs along the very strand that it ends on may cross it by one step of the grid after rounding, and a start that
+    /// had to give way on the layer below is made up for here. `anywhere` on the cycle, where no place nearby will do.
+    fn cleared(&self, start: f64, reach: f64, anywhere: bool) -> Option<Opened> {
+        let wanted = opened(self.layer, start, self.settings.grid);
+        if self.is_sound(&wanted, reach) {
+            return Some(wanted);
+        }
+        let (length, shift) = (self.layer.curve.length(), SHIFT * self.settings.width);
+        let nearby = (1..=SHIFTS).flat_map(|k| [1.0, -1.0].map(|side| start + side * f64::from(k) * shift));
+        let count = if anywhere { (length / shift).ceil().clamp(1.0, 1e6) as usize } else { 0 };
+        let elsewhere = (0..count).map(|k| k as f64 * length / count as f64);
+        let mut beside_root = None;
+        for arc in nearby.chain(elsewhere).map(|arc| arc.rem_euclid(length)) {
+            if self.from.distance(self.layer.curve.point_at(arc)) > reach {
+                continue;
+            }
+            let place = opened(self.layer, arc, self.settings.grid);
+            if !self.is_sound(&place, reach) {
+                continue;
+            }
+            if self.sight.on_wall(place.0).is_none_or(|from_root| from_root >= ROOT_REACH[1]) {
+                return Some(place);
+            }
+            beside_root = beside_root.or(Some(place));
+        }
+        beside_root
+    }
+
+    fn is_sound(&self, opened: &Opened, reach: f64) -> bool {
+        self.from.distance(opened.0) <= reach
+            && self.below.nearest(opened.0).distance <= self.settings.seaming().across
+            && is_clear(self.from, opened)
+    }
+}
+
+/// What of a layer matters to where it begins.
+struct Sight {
+    walls: SegmentIndex,
+    /// Where the strand leaves and joins walls.
+    roots: Vec<DVec2>,
+    width: f64,
+}
+
+impl Sight {
+    fn of(layer: &PlannedLayer, width: f64) -> Self {
+        let sides = layer.curve.segments().zip(&layer.legs);
+        let walls = sides.filter(|(_, leg)| **leg == Leg::Wall).map(|(side, _)| side);
+        let n = layer.legs.len();
+        let on_wall = |k: usize| layer.legs[k % n] == Leg::Wall;
+        let roots = (0..n).filter(|&k| on_wall(k) != on_wall(k + n - 1)).map(|k| layer.curve.points()[k]);
+        Self { walls: SegmentIndex::new(walls.collect(), width), roots: roots.collect(), width }
+    }
+
+    /// How far the nearest root is, in w, if the place is on a wall.
+    fn on_wall(&self, p: DVec2) -> Option<f64> {
+        self.walls.nearest_within(p, 0.1 * self.width)?;
+        let distances = self.roots.iter().map(|root| root.distance(p) / self.width);
+        Some(distances.fold(f64::INFINITY, f64::min))
+    }
+}
+
+/// Whether the step from `from` to an opened cycle crosses none of its stretches, and neither do the two that meet in
+/// its beginning: cut in two on the grid, a stretch that touches a wall may cross it.
+fn is_clear(from: DVec2, (begin, moves): &Opened) -> bool {
+    let ends = std::iter::once(*begin).chain(moves.iter().map(|m| m.to));
+    let stretches: Vec<Segment> = ends.zip(moves).map(|(start, m)| Segment::new(start, m.to)).collect();
+    let step = Segment::new(from, *begin);
+    let around = [Some(&step), stretches.first(), stretches.last()];
+    around.into_iter().flatten().all(|near| !stretches.iter().any(|stretch| stretch.crosses(near)))
+}
+
+/// The cycle as moves from its start at the given arc back to it.
+fn opened(layer: &PlannedLayer, start: f64, grid: f64) -> Opened {
+    let curve = &layer.curve;
+    let points = curve.points();
+    let n = points.len();
+    let on = curve.locate(start);
+    let exact = curve.point_at(start);
+    let role = |k: usize| match layer.legs[k % n] {
+        Leg::Wall => Role::Wall,
+        Leg::Support => Role::Support,
+        Leg::Joint => Role::Connection,
+    };
+    let near = |p: DVec2| p.distance(exact) <= 10.0 * grid;
+    let (begin, first) = if near(points[on.segment]) {
+        (points[on.segment], on.segment)
+    } else if near(points[(on.segment + 1) % n]) {
+        (points[(on.segment + 1) % n], on.segment + 1)
+    } else {
+        ((exact / grid).round() * grid, on.segment)
+    };
+    let mut moves: Vec<Move> =
+        (0..n).map(|k| Move { to: points[(first + k + 1) % n], role: role(first + k) }).collect();
+    if begin != points[first % n] {
+        moves.push(Move { to: begin, role: role(first) });
+    }
+    (begin, moves)
+}
