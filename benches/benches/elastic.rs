@@ -5,6 +5,7 @@ use std::hint::black_box;
 
 use argil_benches::{DVec2, Excursions, WIDTH};
 use argil_elastic::{Carrier, Clearance, ElasticOptions, ElasticSolver, Path};
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
@@ -12,7 +13,6 @@ use faer::sparse::linalg::cholesky::{
 };
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Par, Side};
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
 #[derive(Debug)]
 struct Disc(f64);
@@ -60,17 +60,23 @@ fn twenty_factorisations(c: &mut Criterion) {
             let first = (2 * (column / 2)).saturating_sub(4);
             (first..=column).map(move |row| Triplet::new(row, column, entry(row, column)))
         });
-        let matrix = SparseColMat::<usize, f64>::try_new_from_triplets(2 * free, 2 * free, &upper.collect::<Vec<_>>())
-            .expect("the entries are within the matrix");
+        let matrix =
+            SparseColMat::<usize, f64>::try_new_from_triplets(2 * free, 2 * free, &upper.collect::<Vec<_>>())
+                .expect("the entries are within the matrix");
         let parameters = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SIMPLICIAL,
             ..Default::default()
         };
-        let symbolic =
-            factorize_symbolic_cholesky(matrix.symbolic(), Side::Upper, SymmetricOrdering::Identity, parameters)
-                .expect("there is memory for a few thousand unknowns");
+        let symbolic = factorize_symbolic_cholesky(
+            matrix.symbolic(),
+            Side::Upper,
+            SymmetricOrdering::Identity,
+            parameters,
+        )
+        .expect("there is memory for a few thousand unknowns");
         let mut factor = vec![0.0; symbolic.len_val()];
-        let mut memory = MemBuffer::new(symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default()));
+        let mut memory =
+            MemBuffer::new(symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default()));
         group.bench_function(BenchmarkId::new("faer, 20 factorisations", free), |b| {
             b.iter(|| {
                 for _ in 0..20 {

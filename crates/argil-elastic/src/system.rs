@@ -91,7 +91,8 @@ impl NormalSystem {
         } else {
             let blocks = self.folded.len();
             // Back from the place to the vertex.
-            let vertex = |place: usize| if place.is_multiple_of(2) { place / 2 } else { blocks - place.div_ceil(2) };
+            let vertex =
+                |place: usize| if place.is_multiple_of(2) { place / 2 } else { blocks - place.div_ceil(2) };
             self.matrix.solve(|row| damping(vertex(row / 2)))
         };
         if !solved {
