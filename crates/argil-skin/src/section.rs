@@ -2,8 +2,8 @@
 
 use argil_curve::DVec2;
 use argil_fill::{BareDisc, Fill, FillError, FillOptions, Joint, fill};
-use geo::BooleanOps;
-use geo_types::MultiPolygon;
+use geo::{BooleanOps, Distance, Euclidean};
+use geo_types::{MultiPolygon, Point};
 
 use crate::apart::is_apart;
 use crate::model_loop::nest;
@@ -84,11 +84,13 @@ impl Section<'_> {
         if !room.0.is_empty() {
             let made = simple_fill(&room, &options.fill, avoid)?;
             filled.joints = made.joints.iter().map(Joint::middle).collect();
-            // Where no lane fits there is none to measure from, and no disc wider than a lane needs.
-            let widest = if made.curves.is_empty() { 2.0 * NARROW * width } else { f64::INFINITY };
+            // Where there is no lane to measure from, the edge of the room is where the next bead or the next solid begins.
             let listed = made.bare.into_iter();
-            filled.bare =
-                listed.map(|disc| BareDisc { diameter: disc.diameter.min(widest), ..disc }).collect();
+            let bounded = |disc: BareDisc| BareDisc {
+                diameter: disc.diameter.min(2.0 * edge_distance(&room, disc.centre)),
+                ..disc
+            };
+            filled.bare = listed.map(bounded).collect();
             let curves = made.curves.into_iter();
             filled.loops.extend(curves.map(|curve| ModelLoop {
                 points: curve.points,
@@ -117,6 +119,13 @@ impl Section<'_> {
         }
         room.union(&grown(&between, BETWEEN * width, width))
     }
+}
+
+/// How far the edge of a room is.
+fn edge_distance(room: &MultiPolygon<f64>, p: DVec2) -> f64 {
+    let rings = room.iter().flat_map(|part| std::iter::once(part.exterior()).chain(part.interiors()));
+    let distances = rings.map(|ring| Euclidean.distance(&Point::new(p.x, p.y), ring));
+    distances.fold(f64::INFINITY, f64::min)
 }
 
 /// A fill of which no curve touches itself, if need be of a room whose narrow corners are left out. What is not simple then is left to
