@@ -2,8 +2,8 @@
 
 use argil_curve::DVec2;
 use argil_fill::{BareDisc, Fill, FillError, FillOptions, Joint, fill};
-use geo::{BooleanOps, Distance, Euclidean};
-use geo_types::{MultiPolygon, Point};
+use geo::{BooleanOps, Contains, Distance, Euclidean};
+use geo_types::{MultiPolygon, Point, Polygon};
 
 use crate::apart::is_apart;
 use crate::model_loop::nest;
@@ -131,19 +131,37 @@ fn edge_distance(room: &MultiPolygon<f64>, p: DVec2) -> f64 {
 /// A fill of which no curve touches itself, if need be of a room whose narrow corners are left out. What is not simple then is left to
 /// whoever joins the loops, and checks them.
 fn simple_fill(room: &MultiPolygon<f64>, options: &FillOptions, avoid: &[DVec2]) -> Result<Fill, FillError> {
-    let options = FillOptions { walls: 0, ..*options };
     let is_simple = |made: &Fill| made.curves.iter().all(|curve| is_apart(&curve.points, options.grid));
-    let first = fill(room, &[], &options, avoid)?;
+    let first = whole_fill(room, options, avoid)?;
     if is_simple(&first) {
         return Ok(first);
     }
     for radius in LEFT_OUT {
-        let next = fill(&opened(room, radius * options.width, options.width), &[], &options, avoid)?;
+        let next = whole_fill(&opened(room, radius * options.width, options.width), options, avoid)?;
         if is_simple(&next) {
             return Ok(next);
         }
     }
     Ok(first)
+}
+
+/// The fill of a room, of which each part has a lane if one fits: a short ring without a neighbour to join is left out of a fill, but kept
+/// where it is called a wall.
+fn whole_fill(room: &MultiPolygon<f64>, options: &FillOptions, avoid: &[DVec2]) -> Result<Fill, FillError> {
+    let mut made = fill(room, &[], &FillOptions { walls: 0, ..*options }, avoid)?;
+    let has_lane = |part: &Polygon<f64>| {
+        let on_lane = |p: &DVec2| part.contains(&Point::new(p.x, p.y));
+        made.curves.iter().any(|curve| curve.points.iter().any(on_lane))
+    };
+    let without = MultiPolygon(room.iter().filter(|part| !has_lane(part)).cloned().collect());
+    if !without.0.is_empty() {
+        let more = fill(&without, &[], &FillOptions { walls: 1, ..*options }, avoid)?;
+        made.bare.retain(|disc| !without.contains(&Point::new(disc.centre.x, disc.centre.y)));
+        made.bare.extend(more.bare);
+        made.curves.extend(more.curves);
+        made.joints.extend(more.joints);
+    }
+    Ok(made)
 }
 
 /// The parts of a room that are too narrow for a bead, but for slivers.
