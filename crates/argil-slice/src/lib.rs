@@ -18,6 +18,7 @@ mod error;
 mod fit;
 mod further;
 mod layer;
+mod loops;
 mod mitre;
 mod pruning;
 mod region;

@@ -37,12 +37,14 @@ mod planner;
 mod settings;
 pub mod stages;
 mod starts;
+mod watch;
 
 pub use argil_curve as curve;
 pub use argil_elastic as elastic;
 pub use argil_gcode as gcode;
 pub use argil_mesh as mesh;
 pub use argil_route as route;
+pub use argil_route::{graph, tour};
 pub use argil_safeguard as safeguard;
 pub use argil_seam as seam;
 pub use argil_slice as slice;
