@@ -1,4 +1,4 @@
-//! Whole layers filled: a disc, a comb of narrow teeth, and a plate with twenty holes.
+//! Whole layers filled: a disc, a comb of narrow teeth, a plate with twenty holes, and 60 by 40 beads as a tile and as a crescent.
 
 use std::f64::consts::TAU;
 use std::hint::black_box;
@@ -35,11 +35,37 @@ fn plate() -> Polygon<f64> {
     Polygon::new(edge, holes.collect())
 }
 
+fn tile() -> Polygon<f64> {
+    Polygon::new(corners(&[(0.0, 0.0), (90.0, 0.0), (90.0, 60.0), (0.0, 60.0)]), Vec::new())
+}
+
+/// Between an arc of a large circle and one of a smaller, with sharp tips.
+fn crescent() -> Polygon<f64> {
+    let arc = |radius: f64, from: f64, to: f64, x: f64| {
+        (0..96).map(move |k| {
+            let angle = from + (to - from) * f64::from(k) / 96.0;
+            (x + radius * angle.cos(), radius * angle.sin())
+        })
+    };
+    let outer = arc(45.0, 0.2 * TAU, 0.8 * TAU, 0.0);
+    // The inner arc runs back between the same two tips.
+    let tip = (45.0 * (0.2 * TAU).cos(), 45.0 * (0.2 * TAU).sin());
+    let centre = tip.0 + 10.0;
+    let (radius, half) = (tip.1.hypot(10.0), tip.1.atan2(-10.0));
+    let inner = arc(radius, TAU - half, half, centre);
+    Polygon::new(corners(&outer.chain(inner).collect::<Vec<_>>()), Vec::new())
+}
+
 fn fills(c: &mut Criterion) {
     let mut group = c.benchmark_group("fill");
     group.sample_size(20);
-    let shapes =
-        [("disc", Polygon::new(circle(0.0, 0.0, 15.0), Vec::new())), ("comb", comb()), ("plate", plate())];
+    let shapes = [
+        ("disc", Polygon::new(circle(0.0, 0.0, 15.0), Vec::new())),
+        ("comb", comb()),
+        ("plate", plate()),
+        ("tile", tile()),
+        ("crescent", crescent()),
+    ];
     for (name, shape) in shapes {
         let region = MultiPolygon(vec![shape]);
         group.bench_function(name, |b| {

@@ -108,6 +108,15 @@ impl Segment {
         !self.lies_apart(other) && parted(self, other.start, other.end) && parted(other, self.start, self.end)
     }
 
+    /// Whether the upright boxes round the segments are farther than `distance` mm apart along an axis, and so the segments. What is
+    /// not may be farther all the same; this spares most of a search the full answer.
+    #[inline]
+    pub fn is_boxed_beyond(&self, other: &Segment, distance: f64) -> bool {
+        let (low, high) = (self.start.min(self.end), self.start.max(self.end));
+        let (others_low, others_high) = (other.start.min(other.end), other.start.max(other.end));
+        (others_low - high).max(low - others_high).max_element() > distance
+    }
+
     /// Whether the upright boxes round the segments have no point in common.
     #[inline]
     fn lies_apart(&self, other: &Segment) -> bool {

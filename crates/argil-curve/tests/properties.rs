@@ -1,7 +1,8 @@
 //! Invariants of curves, held spans, the index and crossings, against brute force.
 
 use argil_curve::{
-    ArcSpan, ClosedCurve, CrossingKind, DVec2, Segment, SegmentIndex, gaps, held_spans, self_crossings,
+    ArcSpan, ClosedCurve, CrossingKind, DVec2, PointIndex, Segment, SegmentIndex, gaps, held_spans,
+    self_crossings,
 };
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -211,6 +212,27 @@ proptest! {
         for c in found.iter().filter(|c| c.kind == CrossingKind::AtVertex) {
             prop_assert!(points[c.first].distance(points[c.second]) <= 1e-4);
         }
+    }
+
+    #[test]
+    fn points_near_a_segment_are_those_within_the_radius(points in vec(point(20.0), 0..60), ends in [point(25.0), point(25.0)], cell in 0.01..9.0, radius in 0.0..8.0) {
+        let segment = Segment::new(ends[0], ends[1]);
+        let mut found = Vec::new();
+        PointIndex::new(&points, cell).for_each_within(segment, radius, |k| found.push(k));
+        found.sort_unstable();
+        // What lies on the rim to the last bit may be either.
+        let within = |margin: f64| (0..points.len()).filter(|&k| segment.distance(points[k]) <= radius + margin).collect::<Vec<_>>();
+        prop_assert!(within(-1e-9).iter().all(|k| found.contains(k)));
+        prop_assert!(found.iter().all(|k| within(1e-9).contains(k)));
+        found.dedup();
+        prop_assert!(found.len() <= within(1e-9).len());
+    }
+
+    #[test]
+    fn boxes_tell_nothing_that_is_not_so(a in [point(9.0), point(9.0)], b in [point(9.0), point(9.0)], distance in 0.0..9.0) {
+        let (a, b) = (Segment::new(a[0], a[1]), Segment::new(b[0], b[1]));
+        prop_assert!(!a.is_boxed_beyond(&b, distance) || a.distance_to(&b) > distance);
+        prop_assert_eq!(a.is_boxed_beyond(&b, distance), b.is_boxed_beyond(&a, distance));
     }
 
     /// Pulling the vertices of one strand a little to either side of a crossing at a shared vertex cannot

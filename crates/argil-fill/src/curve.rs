@@ -1,6 +1,6 @@
 //! Closed curves of beads, with what each stretch is for.
 
-use argil_curve::DVec2;
+use argil_curve::{DVec2, Segment};
 
 /// What a stretch of a fill is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -26,6 +26,9 @@ pub struct FillCurve {
     pub points: Vec<DVec2>,
     /// What the stretch from vertex k to vertex k + 1 is; the last one leads back to vertex 0.
     pub beads: Vec<Bead>,
+    /// How wide the bead of each stretch is, as a share of the width: 1, or where [`FillOptions::flow`](crate::FillOptions::flow) allows it
+    /// and the stretch is no wall, what it has room for.
+    pub flow: Vec<f64>,
 }
 
 impl FillCurve {
@@ -33,6 +36,12 @@ impl FillCurve {
     #[must_use]
     pub fn length(&self) -> f64 {
         crate::ring::perimeter(&self.points)
+    }
+
+    /// The stretches, each with what it is for.
+    pub(crate) fn stretches(&self) -> impl Iterator<Item = (Segment, Bead)> + '_ {
+        let n = self.points.len();
+        (0..n).map(move |k| (Segment::new(self.points[k], self.points[(k + 1) % n]), self.beads[k]))
     }
 
     /// Adds a vertex and what begins there; one in the same place as the last replaces what begins there.

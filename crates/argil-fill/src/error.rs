@@ -28,6 +28,14 @@ pub enum FillError {
         /// Its index among the rings that were given.
         ring: usize,
     },
+    /// A part of the region is so large, or so long and slanted, that the grid of points over it would not be held.
+    #[error("the region needs a grid of {points} points: at most {limit} are held")]
+    TooLarge {
+        /// How many points it would have.
+        points: f64,
+        /// The limit.
+        limit: f64,
+    },
     /// The region is so large that its fill would have more than so many rings.
     #[error("the region needs more than {limit} rings")]
     TooManyRings {

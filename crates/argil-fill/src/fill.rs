@@ -1,17 +1,19 @@
 //! A region to closed curves of beads.
 
-use argil_curve::{DVec2, Segment, SegmentIndex, self_crossings};
+use argil_curve::{DVec2, SegmentIndex, self_crossings};
 use geo::Area;
 use geo_types::{LineString, MultiPolygon, Polygon};
 
-use crate::bare::{BareDisc, scan};
+use crate::bare::{BareDisc, Scan, Survey, scan};
 use crate::curve::FillCurve;
-use crate::detour::mended;
+use crate::detour::{Strand, mended};
+use crate::flow::{Laid, follow_room};
 use crate::joint::Joint;
-use crate::merge::merge;
+use crate::merge::merge_within;
 use crate::offset::{dilation, rings};
-use crate::ring::Ring;
-use crate::rings::rings_of;
+use crate::ring::{Ring, perimeter};
+use crate::rings::{rings_of, sides_of};
+use crate::tree::Fence;
 use crate::{FillError, FillOptions};
 
 /// A filled region.
@@ -21,7 +23,7 @@ pub struct Fill {
     pub curves: Vec<FillCurve>,
     /// The joints that made them.
     pub joints: Vec<Joint>,
-    /// Bare discs wider than [`FillOptions::bare`] that no detour could mend, widest first.
+    /// Bare discs wider than [`FillOptions::bare`] that no detour could mend, widest first, between beads of full width.
     pub bare: Vec<BareDisc>,
     /// What was reached.
     pub figures: Figures,
@@ -48,10 +50,13 @@ pub struct Figures {
 const FARTHEST: f64 = 1e6;
 const FARTHEST_STEPS: f64 = 1e9;
 
+/// A ring that finds no joint is left out if it is shorter than this, in w.
+const LONGEST_BLOB: f64 = 4.0;
+
 /// Fills a region with beads one width apart, joined to as few closed curves as possible.
 ///
 /// The region's boundary is inset by (k + ½) w for every k, every strip that stays bare gets a loop there and back, and
-/// all rings are [merged](merge). Where a disc stays bare, the nearest strand that is no wall makes a detour into it.
+/// all rings are [merged](crate::merge). Where a disc stays bare, the nearest strand that is no wall makes a detour into it.
 ///
 /// `beside` are rings that exist already next to the region, such as the walls round it. They are merged with the fill and
 /// stay as they are but for the joints. `avoid` are places to keep joints away from, such as [`Joint::middle`] of
@@ -82,41 +87,77 @@ pub fn fill(
     options.check()?;
     check_coordinates(region, options)?;
     let w = options.width;
-    let own = rings_of(&with_rings_that_are_some(region), options)?;
+    let region = with_rings_that_are_some(region);
+    // A joint from part to part of the region would lay clay outside.
+    let edges = region.iter().flat_map(sides_of).collect();
+    let fence = Fence { index: SegmentIndex::new(edges, w), first: beside.len() };
+    let own = rings_of(&region, &fence.index, options)?;
     let mut all = beside.to_vec();
     all.extend(own.rings);
-    let merged = merge(&all, options, avoid)?;
+    let mut merged = merge_within(&all, options, avoid, Some(&fence))?;
+    // A blob without room for a joint is left to mending.
+    let lonely = lonely_blobs(&all[beside.len()..], beside.len(), &merged.joints, w);
+    if !lonely.is_empty() {
+        let mut number = 0;
+        all.retain(|_| {
+            number += 1;
+            lonely.binary_search(&(number - 1)).is_err()
+        });
+        merged = merge_within(&all, options, avoid, Some(&fence))?;
+    }
     let mut curves = merged.curves;
-    let reachable = if own.core.0.is_empty() { 0.0 } else { dilation(&own.core, 0.5 * w, w).unsigned_area() };
+    let reachable =
+        if own.outline.0.is_empty() { 0.0 } else { dilation(&own.outline, 0.5 * w, w).unsigned_area() };
     let limit = options.bare * w;
-    let mut found = scan(&own.core, reachable, &strand(&curves, w), w, limit);
+    // What is narrower than a residue loop's strip stays bare as the option has it.
+    let mended_from = limit.max(options.residue * w);
+    let mut strand = Strand::new(&curves, w, options.grid);
+    let mut surveys: Vec<Survey<'_>> =
+        own.cores.iter().map(|core| Survey::new(core, &strand.index)).collect();
+    let mut found = scan_all(&surveys, &strand, w, limit);
+    let merged_only = (curves.clone(), found.clone());
     let mut detours = 0;
     for _ in 0..options.mending {
-        let before = curves.clone();
-        let made =
-            if found.discs.is_empty() { 0 } else { mended(&mut curves, &found.discs, w, options.grid) };
-        if made == 0 {
+        let wide = found.discs.partition_point(|disc| disc.diameter > mended_from);
+        let made = mended(&mut curves, &strand, &found.discs[..wide], options.wall_cut * w);
+        if made.is_empty() {
             break;
         }
-        if curves.iter().any(|curve| !self_crossings(&curve.points).is_empty()) {
-            curves = before;
-            break;
-        }
-        detours += made;
-        found = scan(&own.core, reachable, &strand(&curves, w), w, limit);
+        detours += made.len();
+        strand = Strand::new(&curves, w, options.grid);
+        surveys.iter_mut().for_each(|survey| survey.renew(&made, &strand.index, w));
+        found = scan_all(&surveys, &strand, w, limit);
+    }
+    if detours > 0 && curves.iter().any(|curve| !self_crossings(&curve.points).is_empty()) {
+        (curves, found) = merged_only;
+        detours = 0;
     }
     let length: f64 = curves.iter().map(FillCurve::length).sum();
+    let all_laid = match options.flow {
+        Some(limits) => follow_room(&mut curves, &own.cores, w, limits)?,
+        None => Laid { bare: found.bare, beads: length * w },
+    };
     // Rings that were given lie beside the region, and their clay with them.
-    let laid = (length - beside.iter().map(|ring| crate::ring::perimeter(&ring.points)).sum::<f64>()) * w;
+    let laid = all_laid.beads - beside.iter().map(|ring| perimeter(&ring.points)).sum::<f64>() * w;
     let figures = Figures {
         rings: all.len(),
         detours,
         length,
         reachable,
-        coverage: if reachable > 0.0 { 1.0 - found.bare / reachable } else { 1.0 },
-        overdeposit: if laid > 0.0 { 1.0 - (reachable - found.bare) / laid } else { 0.0 },
+        coverage: if reachable > 0.0 { 1.0 - all_laid.bare / reachable } else { 1.0 },
+        overdeposit: if laid > 0.0 { 1.0 - (reachable - all_laid.bare) / laid } else { 0.0 },
     };
     Ok(Fill { curves, joints: merged.joints, bare: found.discs, figures })
+}
+
+/// Rings that are part of no wall, short and joined to nothing, by their numbers, the first of which is `first`.
+fn lonely_blobs(own: &[Ring], first: usize, joints: &[Joint], width: f64) -> Vec<usize> {
+    let mut joined = vec![false; own.len()];
+    for ring in joints.iter().flat_map(|joint| joint.rings).filter(|&ring| ring >= first) {
+        joined[ring - first] = true;
+    }
+    let is_blob = |ring: &Ring| ring.wall.is_none() && perimeter(&ring.points) < LONGEST_BLOB * width;
+    (0..own.len()).filter(|&k| !joined[k] && is_blob(&own[k])).map(|k| first + k).collect()
 }
 
 /// The region without rings of fewer than three corners, which the polygon kernel does not expect.
@@ -132,12 +173,15 @@ fn with_rings_that_are_some(region: &MultiPolygon<f64>) -> MultiPolygon<f64> {
     )
 }
 
-fn strand(curves: &[FillCurve], width: f64) -> SegmentIndex {
-    let sides = curves.iter().flat_map(|curve| {
-        let points = &curve.points;
-        (0..points.len()).map(|k| Segment::new(points[k], points[(k + 1) % points.len()]))
-    });
-    SegmentIndex::new(sides.collect(), width)
+fn scan_all(surveys: &[Survey<'_>], strand: &Strand, width: f64, limit: f64) -> Scan {
+    let mut all = Scan::default();
+    for survey in surveys {
+        let own = scan(survey, &strand.index, width, limit);
+        all.bare += own.bare;
+        all.discs.extend(own.discs);
+    }
+    all.discs.sort_by(|a, b| b.diameter.total_cmp(&a.diameter));
+    all
 }
 
 fn check_coordinates(region: &MultiPolygon<f64>, options: &FillOptions) -> Result<(), FillError> {

@@ -28,6 +28,22 @@ pub(crate) struct Cut {
     pub(crate) high: f64,
 }
 
+/// Where a joint could be made, before its legs are drawn.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sketch {
+    /// No joint from here has a lower score.
+    pub(crate) bound: f64,
+    /// The tracks, the shorter one first.
+    pub(crate) tracks: [usize; 2],
+    from: Place,
+    to: Place,
+    /// Direction from one track to the other, and how much it leans along the first.
+    across: DVec2,
+    along: DVec2,
+    skew: f64,
+    crowd: f64,
+}
+
 /// A joint that could be made.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Candidate {
@@ -51,13 +67,14 @@ pub(crate) struct Search<'a> {
     pub(crate) wall_cut: f64,
     /// The longest joint, mm.
     pub(crate) reach: f64,
-    /// Places along the shorter ring of a pair at most.
+    /// Distance of the places that are tried, mm, and how many of a ring at most.
+    pub(crate) step: f64,
     pub(crate) samples: usize,
     /// Places to keep away from.
     pub(crate) avoid: &'a [DVec2],
 }
 
-/// Distance between two places that are tried, in w.
+/// The chord that gives a ring's direction goes so far to either side, in w.
 const STEP: f64 = 0.2;
 
 /// A joint may lean against the ring that it leaves so far: the cosine of its angle with it.
@@ -70,23 +87,25 @@ const MOST_OF_RING: f64 = 0.18;
 const STAGGER: f64 = 2.0;
 
 impl Search<'_> {
-    /// Adds all joints between two tracks, the first the shorter one.
-    pub(crate) fn between(
-        &self,
-        numbers: [usize; 2],
-        first: &Track,
-        second: &Track,
-        found: &mut Vec<Candidate>,
-    ) {
-        let length = first.curve.length();
-        let count = ((length / (STEP * self.width)).ceil() as usize).clamp(12, self.samples.max(12));
-        let half = self.halves(first, second);
-        for k in 0..count {
-            let from = first.place((k as f64 + 0.5) * length / count as f64);
-            if let Some(to) = second.nearest(from.at, self.reach) {
-                found.extend(self.candidate(numbers, [first, second], [from, to], half));
-            }
+    /// How many places along a track are tried.
+    pub(crate) fn count(&self, track: &Track) -> usize {
+        ((track.curve.length() / self.step).ceil() as usize).clamp(12, self.samples.max(12))
+    }
+
+    /// The joint between a place on one track and the nearest one on another, if it does not lean too much.
+    pub(crate) fn sketch(&self, tracks: [usize; 2], first: &Track, [from, to]: [Place; 2]) -> Option<Sketch> {
+        let w = self.width;
+        let axis = to.at - from.at;
+        let distance = axis.length();
+        let along = first.heading(from.arc, STEP * w);
+        let across = if distance > 0.0 { axis / distance } else { along.perp() };
+        let skew = along.dot(across).abs();
+        if skew > MOST_SKEW {
+            return None;
         }
+        let crowd = self.avoid.iter().map(|p| 1.0 - p.distance(from.at) / (STAGGER * w)).fold(0.0, f64::max);
+        let bound = 2.0 * (distance - w).abs() / w + skew + 2.0 * crowd;
+        Some(Sketch { bound, tracks, from, to, across, along, skew, crowd })
     }
 
     /// Half of what is taken out of either track.
@@ -104,22 +123,12 @@ impl Search<'_> {
         }
     }
 
-    fn candidate(
-        &self,
-        tracks: [usize; 2],
-        [first, second]: [&Track; 2],
-        [from, to]: [Place; 2],
-        [here, there]: [f64; 2],
-    ) -> Option<Candidate> {
+    /// The joint with its legs, if both have a place.
+    pub(crate) fn candidate(&self, sketch: &Sketch, first: &Track, second: &Track) -> Option<Candidate> {
         let w = self.width;
-        let axis = to.at - from.at;
-        let distance = axis.length();
-        let along = first.heading(from.arc, STEP * w);
-        let across = if distance > 0.0 { axis / distance } else { along.perp() };
-        let skew = along.dot(across).abs();
-        if skew > MOST_SKEW {
-            return None;
-        }
+        let [here, there] = self.halves(first, second);
+        let Sketch { tracks, from, to, across, along, skew, crowd, .. } = *sketch;
+        let distance = to.at.distance(from.at);
         let side = if across.perp().dot(along) < 0.0 { -across.perp() } else { across.perp() };
         let (low, high) = (first.place(from.arc - here), first.place(from.arc + here));
         let reach = self.reach + 0.3 * w;
@@ -136,7 +145,6 @@ impl Search<'_> {
         let bent =
             (chords[0] - 2.0 * here).abs() + (chords[1] - 2.0 * there).abs() + (taken - chords[1]).abs();
         let uneven = (legs[0].length() - legs[1].length()).abs();
-        let crowd = self.avoid.iter().map(|p| 1.0 - p.distance(from.at) / (STAGGER * w)).fold(0.0, f64::max);
         let score = (2.0 * (distance - w).abs() + uneven + bent) / w + skew + 2.0 * crowd;
         let turned = span < 0.0;
         let other = if turned {

@@ -8,25 +8,33 @@
 //! 2. *Residue*: what the beads of a level leave bare gets a loop there and back, if it is wide enough.
 //! 3. *Joints*: for neighbouring rings two legs, scored by how straight and parallel they lie; Kruskal's tree of them.
 //! 4. *Trace*: arcs and legs by turns are one closed curve for each tree.
-//! 5. *Mending*: the nearest strand that is no wall makes a detour into each disc that is still bare.
+//! 5. *Mending*: the nearest strand makes a detour into each disc that is still bare; a wall gives no more of itself than to a joint.
+//! 6. *Flow*, on request: each stretch lays the clay of what is nearest to it.
+//!
+//! Walls are offsets of polygons. All other distances are those of a grid of points a fifth of a bead apart that know the segment nearest to
+//! them: rings and residue loops are lines of equal distance on it, drawn with their corners, and what is bare is read off it.
 //!
 //! Lengths are millimetres. The same input gives the same bytes.
 #![forbid(unsafe_code)]
 
 mod bare;
+mod contour;
 mod curve;
 mod detour;
 mod error;
 mod fill;
-mod inscribed;
+mod flow;
 mod joint;
 mod merge;
+mod nearest;
 mod offset;
 mod options;
+mod plot;
 mod residue;
 mod ring;
 mod rings;
 mod trace;
+mod tree;
 
 pub use argil_curve::DVec2;
 pub use bare::BareDisc;

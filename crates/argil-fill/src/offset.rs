@@ -8,20 +8,9 @@ use geo_types::{LineString, MultiPolygon, Polygon};
 /// How far arcs may cut their corners, in w.
 const CHORD: f64 = 0.006;
 
-/// All points of the region farther than `distance` from its boundary.
-pub(crate) fn inset(region: &impl Buffer<Scalar = f64>, distance: f64, width: f64) -> MultiPolygon<f64> {
-    offset(region, -distance, arc(distance, width))
-}
-
 /// All points within `distance` of the region.
 pub(crate) fn dilation(region: &impl Buffer<Scalar = f64>, distance: f64, width: f64) -> MultiPolygon<f64> {
     offset(region, distance, arc(distance, width))
-}
-
-/// The union of the discs of a radius that fit into the region: what is thinner is gone, corners are as round as the disc.
-pub(crate) fn opening(region: &impl Buffer<Scalar = f64>, radius: f64, width: f64) -> MultiPolygon<f64> {
-    let shrunk = inset(region, radius, width);
-    if shrunk.0.is_empty() { shrunk } else { dilation(&shrunk, radius, width) }
 }
 
 /// The region inset by `distance`, without parts thinner than twice `slight`; corners stay sharp.
@@ -31,7 +20,8 @@ pub(crate) fn opened_inset(
     slight: f64,
     width: f64,
 ) -> MultiPolygon<f64> {
-    let shrunk = inset(region, distance + slight, width);
+    let inward = distance + slight;
+    let shrunk = offset(region, -inward, arc(inward, width));
     if shrunk.0.is_empty() { shrunk } else { offset(&shrunk, slight, LineJoin::Miter(60_f64.to_radians())) }
 }
 

@@ -18,11 +18,15 @@ pub struct FillOptions {
     /// A lower value closes floors at the price of doubled clay, a higher one spares clay: at 0.6 instead of 0.4 the
     /// prototype left half a per cent less covered for one per cent less doubled.
     pub residue: f64,
-    /// Bare discs wider than this are mended by a detour of the nearest strand if possible, and reported if not; in w.
-    /// Below 0.25 none can be mended: the rounded ends of a joint leave as much.
+    /// Bare discs wider than this are reported, and mended by a detour of the nearest strand if possible and if they are wider than
+    /// [`residue`](Self::residue), too; in w. Below 0.25 none can be mended: the rounded ends of a joint leave as much.
     pub bare: f64,
     /// Rounds of mending; 0 mends nothing.
     pub mending: usize,
+    /// The narrowest and the widest bead, in w, where beads follow the room that they have: [`FillCurve::flow`](crate::FillCurve::flow) and
+    /// the figures then say what is laid. From 0.75 to 1.33 a strip of three beads that has four lanes, none of them a wall, has hardly
+    /// more clay than room. `None` for one width everywhere.
+    pub flow: Option<[f64; 2]>,
     /// Step of the output coordinates, mm.
     pub grid: f64,
 }
@@ -34,16 +38,29 @@ impl FillOptions {
     /// The options that serve most regions at bead width `width`; see the fields for their reasons.
     #[must_use]
     pub fn for_width(width: f64) -> Self {
-        Self { width, walls: 1, wall_cut: 0.1, reach: 2.25, residue: 0.4, bare: 0.33, mending: 3, grid: 1e-4 }
+        Self {
+            width,
+            walls: 1,
+            wall_cut: 0.1,
+            reach: 2.25,
+            residue: 0.4,
+            bare: 0.33,
+            mending: 3,
+            flow: None,
+            grid: 1e-4,
+        }
     }
 
     pub(crate) fn check(&self) -> Result<(), FillError> {
+        let [narrowest, widest] = self.flow.unwrap_or([1.0; 2]);
         let within = [
             ("width", self.width, f64::MIN_POSITIVE, 1e6, "positive and at most a kilometre"),
             ("wall_cut", self.wall_cut, 0.02, 1.0, "from 0.02 to 1"),
             ("reach", self.reach, 1.0, 10.0, "from 1 to 10"),
             ("residue", self.residue, 0.05, f64::MAX, "at least 0.05"),
             ("bare", self.bare, 0.05, f64::MAX, "at least 0.05"),
+            ("flow", narrowest, 0.1, 1.0, "from 0.1 to 1 for the narrowest bead"),
+            ("flow", widest, 1.0, 3.0, "from 1 to 3 for the widest bead"),
             (
                 "grid",
                 self.grid,

@@ -2,7 +2,7 @@
 
 use argil_curve::{ClosedCurve, DVec2, SegmentIndex};
 use geo::Simplify;
-use geo_types::{LineString, Polygon};
+use geo_types::{Coord, LineString, Polygon};
 
 use crate::FillError;
 use crate::offset::{ring_points, rings};
@@ -24,11 +24,15 @@ const LEAST_SIDE: f64 = 12.0;
 
 /// The rings round a polygon, simplified and on the grid; those shorter than `least` mm are left out.
 pub(crate) fn rings_round(polygon: &Polygon<f64>, width: f64, grid: f64, least: f64) -> Vec<Vec<DVec2>> {
-    rings(polygon)
-        .map(|ring| ring_points(&ring.simplify(TOLERANCE * width)))
-        .map(|points| rounded(&points, grid))
-        .filter(|points| points.len() >= 3 && perimeter(points) >= least)
-        .collect()
+    rings(polygon).filter_map(|ring| ring_on_grid(ring_points(ring), width, grid, least)).collect()
+}
+
+/// The ring through some points, simplified and on the grid, unless it is shorter than `least` mm.
+pub(crate) fn ring_on_grid(points: Vec<DVec2>, width: f64, grid: f64, least: f64) -> Option<Vec<DVec2>> {
+    let mut line: LineString<f64> = points.into_iter().map(|p| Coord { x: p.x, y: p.y }).collect();
+    line.close();
+    let points = rounded(&ring_points(&line.simplify(TOLERANCE * width)), grid);
+    (points.len() >= 3 && perimeter(&points) >= least).then_some(points)
 }
 
 /// The points on the grid, without sides that are too short.
@@ -87,10 +91,9 @@ impl Track {
             .filter(|curve| curve.segment_count() > 2)
             .ok_or(FillError::Ring { ring: number })?;
         let index = SegmentIndex::of_curves([&curve], width);
-        let (low, high) = curve
-            .points()
-            .iter()
-            .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)));
+        let points = curve.points().iter();
+        let (low, high) =
+            points.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)));
         Ok(Self { curve, index, wall: ring.wall, low, high })
     }
 
@@ -101,18 +104,18 @@ impl Track {
     /// The place nearest to `p`, if it is within `reach`.
     pub(crate) fn nearest(&self, p: DVec2, reach: f64) -> Option<Place> {
         let near = self.index.nearest_within(p, reach)?;
-        let segment = self.curve.segment(near.index);
-        Some(Place {
-            arc: self.curve.arc_of(near.index) + segment.start.distance(near.point),
-            at: near.point,
-        })
+        Some(self.place_on(near.index, near.point))
+    }
+
+    /// A point of one of its segments.
+    pub(crate) fn place_on(&self, segment: usize, at: DVec2) -> Place {
+        Place { arc: self.curve.arc_of(segment) + self.curve.points()[segment].distance(at), at }
     }
 
     /// Direction at an arc, as the chord over `step` to either side.
     pub(crate) fn heading(&self, arc: f64, step: f64) -> DVec2 {
         (self.curve.point_at(arc + step) - self.curve.point_at(arc - step)).normalize_or_zero()
     }
-
     /// Whether the boxes come within `reach` of each other.
     pub(crate) fn may_reach(&self, other: &Self, reach: f64) -> bool {
         (self.low - reach).cmple(other.high).all() && (other.low - reach).cmple(self.high).all()

@@ -63,7 +63,7 @@ pub(crate) fn traced(tracks: &[Track], joints: &[Candidate], grid: f64) -> Vec<F
         if own.is_empty() {
             let points = track.curve.points().to_vec();
             let beads = vec![Bead::of_ring(track.wall); points.len()];
-            curves.push(FillCurve { points, beads });
+            curves.push(FillCurve { flow: vec![1.0; points.len()], points, beads });
         }
     }
     let mut walked = vec![false; tips.len()];
@@ -85,6 +85,7 @@ pub(crate) fn traced(tracks: &[Track], joints: &[Candidate], grid: f64) -> Vec<F
             tip = tips[end].across;
         }
         curve.close();
+        curve.flow = vec![1.0; curve.points.len()];
         curves.push(curve);
     }
     curves

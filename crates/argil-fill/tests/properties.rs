@@ -8,7 +8,7 @@ use geo::{Buffer, Distance, Euclidean, MapCoords, Point};
 use geo_types::{Coord, LineString, MultiPolygon};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use shapes::{annulus, disc, region, strip};
+use shapes::{annulus, disc, region, share_of_strips, strip, wide};
 
 const WIDTH: f64 = 1.5;
 
@@ -40,11 +40,17 @@ fn departure(region: &MultiPolygon<f64>, fill: &Fill) -> Result<(), String> {
     for curve in &fill.curves {
         hold(curve.points.len() == curve.beads.len(), "a stretch has no role")?;
         hold(self_crossings(&curve.points).is_empty(), "a curve crosses itself")?;
+        let edges = rings(region).flat_map(LineString::lines);
+        let edges =
+            edges.map(|l| Segment::new(DVec2::new(l.start.x, l.start.y), DVec2::new(l.end.x, l.end.y)));
+        let edges = SegmentIndex::new(edges.collect(), WIDTH);
         let index = SegmentIndex::new(earlier.clone(), WIDTH);
         for side in sides(&curve.points) {
             let mut crosses = false;
             index.for_each_near(side, 0.0, |_, other| crosses |= side.crosses(&other));
             hold(!crosses, "two curves cross")?;
+            edges.for_each_near(side, 0.0, |_, edge| crosses |= side.crosses(&edge));
+            hold(!crosses, "a curve leaves the region")?;
         }
         earlier.extend(sides(&curve.points));
         for &p in &curve.points {
@@ -81,23 +87,69 @@ fn missed(region: &MultiPolygon<f64>, fill: &Fill) -> f64 {
     if total > 0.0 { missed / total } else { 0.0 }
 }
 
+/// More regions than usual are drawn with `ARGIL_CASES`.
+fn cases() -> u32 {
+    std::env::var("ARGIL_CASES").ok().and_then(|count| count.parse().ok()).unwrap_or(32)
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 16, rng_seed: RngSeed::Fixed(1), failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: cases(), rng_seed: RngSeed::Fixed(1), failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn any_region_is_filled(region in region()) {
         let fill = filled(&region);
         prop_assert_eq!(departure(&region, &fill), Ok(()));
         prop_assert!(missed(&region, &fill) <= 0.002, "{} of the walls missed", missed(&region, &fill));
-        // A strip just under 2.4 beads wide stays bare along its middle: 0.4 of 2.4.
-        prop_assert!(fill.figures.coverage >= 0.83, "{:?}", fill.figures);
-        // Where three strips meet, discs of up to 1.08 beads were found bare.
-        prop_assert!(fill.bare.iter().all(|disc| disc.diameter < 1.1 * WIDTH), "{:?}", fill.bare);
-        prop_assert!(fill.curves.len() <= region.buffer(-0.53 * WIDTH).0.len().max(1));
+        prop_assert!(fill.bare.iter().all(|disc| disc.diameter <= 0.55 * WIDTH), "{:?}", fill.bare);
+        prop_assert!(fill.curves.len() <= region.buffer(-0.52 * WIDTH).0.len().max(1));
+        // A strip has an even number of lanes: up to 0.4 of 2.4 beads stay bare there, or up to 0.36 of the clay is double;
+        // half of it where two lanes lie in a strip one bead wide.
+        let thin = share_of_strips(&region, 0.0, 2.0 * WIDTH);
+        let odd = share_of_strips(&region, 2.0 * WIDTH, 3.3 * WIDTH);
+        let shares = (thin, odd);
+        prop_assert!(fill.figures.coverage >= 0.97 - 0.17 * odd, "{shares:?}: {:?}", fill.figures);
+        let most = 0.16 + 0.5 * thin + 0.36 * odd;
+        prop_assert!(fill.figures.overdeposit <= most, "{shares:?}: {:?}", fill.figures);
     }
 
     #[test]
-    fn a_region_in_another_place_is_filled_alike(region in region(), x in -500.0..500.0, y in -500.0..500.0) {
+    fn wide_regions_are_covered_once(region in wide()) {
+        let fill = filled(&region);
+        prop_assert_eq!(departure(&region, &fill), Ok(()));
+        prop_assert_eq!(fill.curves.len(), 1);
+        // What the joint at the wall, the middle and the corners cost shrinks no faster than the perimeter.
+        let (least, most) = if fill.figures.reachable > (13.0 * WIDTH).powi(2) { (0.985, 0.03) } else { (0.975, 0.1) };
+        prop_assert!(fill.figures.coverage >= least, "{:?}", fill.figures);
+        prop_assert!(fill.figures.overdeposit <= most, "{:?}", fill.figures);
+    }
+
+    #[test]
+    fn flow_doubles_less(region in region()) {
+        let constant = filled(&region);
+        let limits = [0.75, 1.33];
+        let flowing = fill(&region, &[], &FillOptions { flow: Some(limits), ..options() }, &[]);
+        let flowing = flowing.expect("a region of finite size has a fill");
+        prop_assert_eq!(&constant.joints, &flowing.joints, "flow moves nothing");
+        let mut laid = 0.0;
+        for (before, curve) in constant.curves.iter().zip(&flowing.curves) {
+            prop_assert_eq!((&before.points, &before.beads), (&curve.points, &curve.beads));
+            prop_assert!(before.flow.iter().all(|&flow| flow == 1.0));
+            prop_assert_eq!(curve.flow.len(), curve.points.len());
+            for ((side, bead), &flow) in sides(&curve.points).zip(&curve.beads).zip(&curve.flow) {
+                let expected = if matches!(bead, Bead::Wall(_)) { [1.0, 1.0] } else { limits };
+                prop_assert!((expected[0]..=expected[1]).contains(&flow), "{flow}");
+                laid += side.length() * flow * WIDTH;
+            }
+        }
+        let (before, after) = (constant.figures, flowing.figures);
+        prop_assert!(laid * after.overdeposit <= before.length * WIDTH * before.overdeposit + 0.02 * before.reachable);
+        prop_assert!(after.coverage >= before.coverage - 0.05, "{before:?} {after:?}");
+    }
+
+    #[test]
+    fn a_region_in_another_place_is_filled_alike(region in region(), x in -500..500, y in -500..500) {
+        // By whole steps of the grid, so that what rounding decides is decided alike.
+        let (x, y) = (f64::from(x), f64::from(y));
         let (here, there) = (filled(&region), filled(&region.map_coords(|c| Coord { x: c.x + x, y: c.y + y })));
         prop_assert_eq!(here.curves.len(), there.curves.len());
         prop_assert!((here.figures.coverage - there.figures.coverage).abs() < 0.02);
@@ -161,6 +213,22 @@ fn what_is_bare_or_double_is_for_the_caller_to_choose() {
     assert!(bare.figures.coverage < 0.7 && bare.figures.overdeposit < 0.05, "{:?}", bare.figures);
     assert!(double.figures.coverage > 0.99 && double.figures.overdeposit > 0.2, "{:?}", double.figures);
     assert!(bare.bare.iter().any(|disc| disc.diameter > 0.9 * WIDTH), "what stays bare is listed");
+}
+
+#[test]
+fn flow_fills_odd_strips_once() {
+    // Wide enough for three lanes, and for seven, in which there are four and eight.
+    for (beads, walls, over) in [(3.0, 0, 0.05), (3.0, 1, 0.15), (7.0, 0, 0.05), (7.0, 1, 0.05)] {
+        let region = strip(60.0, beads * WIDTH);
+        let with = |flow| {
+            let options = FillOptions { flow, walls, ..options() };
+            fill(&region, &[], &options, &[]).expect("a strip has a fill").figures
+        };
+        let (constant, flowing) = (with(None), with(Some([0.75, 1.33])));
+        assert!(constant.overdeposit > over + 0.05, "{beads} beads, {walls} walls: {constant:?}");
+        assert!(flowing.overdeposit <= over, "{beads} beads, {walls} walls: {flowing:?}");
+        assert!(flowing.coverage >= 0.98, "{beads} beads, {walls} walls: {flowing:?}");
+    }
 }
 
 /// A square about the origin.

@@ -95,7 +95,11 @@ impl Clearing<'_> {
     /// Distance of an edge from the walls, or what has to be kept if that is less.
     fn gap(&self, edge: Segment) -> f64 {
         let mut gap = self.off;
-        self.walls.for_each_near(edge, self.off, |_, wall| gap = gap.min(wall.distance_to(&edge)));
+        self.walls.for_each_near(edge, self.off, |_, wall| {
+            if !wall.is_boxed_beyond(&edge, gap) {
+                gap = gap.min(wall.distance_to(&edge));
+            }
+        });
         gap
     }
 
@@ -109,6 +113,9 @@ impl Clearing<'_> {
                 return;
             }
             let strand = Segment::new(points[other], points[(other + 1) % n]);
+            if strand.is_boxed_beyond(&new, self.apart) {
+                return;
+            }
             if self.arc_gap(other, edge) <= self.turn {
                 clear = !strand.crosses(&new);
                 return;

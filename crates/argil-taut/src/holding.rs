@@ -1,6 +1,6 @@
 //! What of the layer above is held, kept up to date while strands move.
 
-use argil_curve::{ArcSpan, ClosedCurve, DVec2, Segment, SegmentIndex, gaps, held_spans};
+use argil_curve::{ArcSpan, ClosedCurve, DVec2, PointIndex, Segment, SegmentIndex, gaps, held_spans};
 
 use crate::TautOptions;
 
@@ -9,6 +9,9 @@ const SAMPLES: f64 = 64.0;
 
 /// Samples in a row that a strand has to hold to count: a graze bears nothing.
 const GRIP: usize = 3;
+
+/// Side of the cells that samples are sorted into, in `ε_across`.
+const CELL: f64 = 0.6;
 
 /// A stretch of the curve above that no wall holds, as a range of samples.
 #[derive(Clone, Copy, Debug)]
@@ -25,9 +28,7 @@ pub(crate) struct Holding {
     across: f64,
     /// The longest run of samples that may hang.
     most: usize,
-    samples: Vec<DVec2>,
-    /// Pieces between samples, piece k from sample k on.
-    index: SegmentIndex,
+    samples: PointIndex,
     runs: Vec<Run>,
     run_of: Vec<u32>,
     holders: Vec<u32>,
@@ -74,14 +75,12 @@ impl Holding {
                 must[k] = true;
             }
         }
-        let index = SegmentIndex::new(samples.iter().map(|&p| Segment::new(p, p)).collect(), across);
         Self {
             across,
             // A run of n hanging samples is at most n + 2 steps long, for one of them may stand a step aside.
             most: ((options.used * options.along / step).floor() as usize).saturating_sub(2),
             holders: vec![0; samples.len()],
-            samples,
-            index,
+            samples: PointIndex::new(&samples, CELL * across),
             runs,
             run_of,
             must,
@@ -91,22 +90,16 @@ impl Holding {
 
     /// Counts a strand in.
     pub(crate) fn add(&mut self, strand: Segment) {
-        let Self { index, samples, holders, across, .. } = self;
-        index.for_each_near(strand, *across, |k, _| {
-            if strand.is_within(samples[k], *across) {
-                holders[k] += 1;
-            }
-        });
+        let Self { samples, holders, across, .. } = self;
+        samples.for_each_within(strand, *across, |k| holders[k] += 1);
     }
 
     fn remove(&mut self, strand: Segment) {
-        let Self { index, samples, holders, across, lost, .. } = self;
-        index.for_each_near(strand, *across, |k, _| {
-            if strand.is_within(samples[k], *across) {
-                holders[k] -= 1;
-                if holders[k] == 0 {
-                    lost.push(k);
-                }
+        let Self { samples, holders, across, lost, .. } = self;
+        samples.for_each_within(strand, *across, |k| {
+            holders[k] -= 1;
+            if holders[k] == 0 {
+                lost.push(k);
             }
         });
     }
