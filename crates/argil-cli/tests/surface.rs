@@ -7,6 +7,8 @@
 mod listing;
 #[path = "surface/source.rs"]
 mod source;
+#[path = "surface/threads.rs"]
+mod threads;
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -39,6 +41,26 @@ fn the_surface_of_every_library_is_the_one_written_down() {
     let kept: BTreeSet<String> =
         fs::read_dir(written).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
     assert_eq!(kept, names, "one file a library");
+}
+
+#[test]
+fn what_a_program_keeps_can_go_to_another_thread() {
+    let known: BTreeSet<&str> = threads::types()
+        .into_iter()
+        .map(|path| path.split('<').next().unwrap_or(path).rsplit("::").next().unwrap_or(path))
+        .collect();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    for file in
+        ["argil", "argil-audit", "argil-curve", "argil-gcode", "argil-route", "argil-strand", "argil-tour"]
+    {
+        let surface = fs::read_to_string(root.join("docs/api").join(format!("{file}.txt"))).unwrap();
+        for line in surface.lines().filter(|line| !line.starts_with(' ')) {
+            let declared = line.split_once("pub struct ").or_else(|| line.split_once("pub enum "));
+            let Some((_, rest)) = declared else { continue };
+            let name = rest.split(|c: char| !c.is_alphanumeric()).next().unwrap();
+            assert!(known.contains(name), "{file}: {name} is not among the types that threads share");
+        }
+    }
 }
 
 #[test]

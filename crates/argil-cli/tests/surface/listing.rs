@@ -123,21 +123,18 @@ impl Surface {
         let Some(path) = self.path(&name(rest), public) else { return };
         let valued = ["const ", "static ", "type "].contains(&kind);
         let head = if valued { unvalued(&item.head) } else { item.head.clone() };
-        let module =
-            if public.is_empty() { String::new() } else { format!("{}: ", public.trim_end_matches("::")) };
+        let module = path.rsplit_once("::").map_or(String::new(), |(module, _)| format!("{module}: "));
         let mut text = vec![format!("{module}{}{head}", noticed(item))];
         let body = item.body.as_deref().unwrap_or_default();
         match kind {
-            "struct " => text.extend(
-                parts(body)
-                    .into_iter()
-                    .filter(|field| field.starts_with("pub "))
-                    .map(|field| format!("    {field}")),
-            ),
+            "struct " => {
+                let fields = parts(body).into_iter().filter(|field| field.starts_with("pub "));
+                text.extend(fields.map(|field| format!("    {field}")));
+            }
             "enum " => text
                 .extend(parts(body).into_iter().map(|variant| format!("    {}", inner_attributes(&variant)))),
             "trait " => {
-                text.extend(items(body).iter().map(|inner| format!("    {}{}", noticed(inner), inner.head)))
+                text.extend(items(body).iter().map(|inner| format!("    {}{}", noticed(inner), inner.head)));
             }
             _ => {}
         }
