@@ -1,6 +1,6 @@
-//! What argil may be built from, and with which toolchain.
+//! What argil may be built from, from where, and with which toolchain.
 //!
-//! Both questions are put to `cargo metadata`, which knows every package of the lock files with what its author declared.
+//! The questions are put to `cargo metadata`, which knows every package of the lock files with what its author declared.
 
 use std::path::Path;
 use std::process::Command;
@@ -25,16 +25,30 @@ const ALLOWED: [&str; 14] = [
     "Zlib",
 ];
 
+/// What cargo answers: without a network where it has all packages, which is wherever argil has been built.
+fn cargo(arguments: &[&str]) -> Vec<u8> {
+    let run = |offline: &[&str]| {
+        Command::new(env!("CARGO")).args(arguments).args(offline).output().expect("cargo runs")
+    };
+    let mut output = run(&["--offline"]);
+    if !output.status.success() {
+        output = run(&[]);
+    }
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    output.stdout
+}
+
+fn read(page: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(page);
+    std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{page}: {error}"))
+}
+
 /// Every package that the lock file of a workspace names; `fuzz` has its own.
 fn packages(manifest: &str) -> Vec<Value> {
     let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(manifest);
-    let output = Command::new(env!("CARGO"))
-        .args(["metadata", "--format-version", "1", "--locked", "--manifest-path"])
-        .arg(&manifest)
-        .output()
-        .expect("cargo runs");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let metadata: Value = serde_json::from_slice(&output.stdout).expect("cargo writes JSON");
+    let path = manifest.to_str().expect("the path of the workspace is text");
+    let arguments = ["metadata", "--format-version", "1", "--locked", "--manifest-path", path];
+    let metadata: Value = serde_json::from_slice(&cargo(&arguments)).expect("cargo writes JSON");
     let packages = metadata["packages"].as_array().expect("metadata has packages").clone();
     assert!(packages.len() > 15, "argil alone has more than {} packages", packages.len());
     packages
@@ -109,6 +123,54 @@ fn every_dependency_has_an_allowed_licence() {
             );
         }
     }
+}
+
+#[test]
+fn the_policy_of_cargo_deny_is_the_same() {
+    let policy = read("deny.toml");
+    let list = policy
+        .split("[licenses]")
+        .nth(1)
+        .and_then(|rest| rest.split(']').next())
+        .expect("a list of licences");
+    let told: Vec<&str> = list.split('"').skip(1).step_by(2).collect();
+    assert_eq!(told, ALLOWED);
+}
+
+#[test]
+fn every_dependency_is_from_the_registry_of_rust() {
+    for manifest in ["Cargo.toml", "fuzz/Cargo.toml"] {
+        for package in packages(manifest) {
+            let source = package["source"].as_str().unwrap_or("here");
+            let is_known =
+                ["here", "registry+https://github.com/rust-lang/crates.io-index"].contains(&source);
+            assert!(is_known, "{} is from {source}", package["name"]);
+        }
+    }
+}
+
+#[test]
+fn crates_that_are_there_in_two_versions_are_told() {
+    let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join("../Cargo.toml");
+    let path = manifest.to_str().expect("the path of the workspace is text");
+    let arguments =
+        ["tree", "--locked", "--workspace", "--all-features", "-d", "--depth", "0", "--prefix", "none"];
+    let tree = cargo(&[&arguments[..], &["-e", "normal,build", "--manifest-path", path]].concat());
+    let tree = String::from_utf8(tree).expect("cargo writes text");
+    let mut found: Vec<&str> =
+        tree.lines().filter_map(|line| line.split(' ').next()).filter(|name| !name.is_empty()).collect();
+    found.sort_unstable();
+    found.dedup();
+    let page = read("docs/ARCHITECTURE.md");
+    let section = page.split("## Twice in the tree").nth(1).expect("a section about them");
+    let section = section.split("\n## ").next().unwrap_or_default();
+    let mut told: Vec<&str> = section
+        .lines()
+        .filter(|line| line.starts_with("| `"))
+        .flat_map(|line| line.split('|').nth(1).unwrap_or_default().split('`').skip(1).step_by(2))
+        .collect();
+    told.sort_unstable();
+    assert_eq!(found, told);
 }
 
 #[test]

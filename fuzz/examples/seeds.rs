@@ -44,6 +44,77 @@ fn stl_files() -> [(&'static str, Vec<u8>); 5] {
     ]
 }
 
+/// A tetrahedron as OBJ, with polygons and indices of all kinds, and what is none.
+fn obj_files() -> [(&'static str, &'static str); 4] {
+    [
+        ("tetrahedron", "v 0 0 0\nv 10 0 0\nv 0 10 0\nv 0 0 10\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"),
+        (
+            "polygons",
+            "# quads\r\no a\r\nv 0 0 0 1\r\nv 9 0 0\r\nv 9 9 0\r\nv 0 9 0\r\nf 1/1/1 2//2 \\\r\n -2 -1\r\nvn 0 0 1\r\n",
+        ),
+        ("out_of_range", "v 1 1 1\nf 1 2 3\nf 0 -9 1\n"),
+        ("odd_numbers", "v nan 1e999 -.5\nv 1 2\nf 99999999999999999999 1 1\ncurv 0 1\n"),
+    ]
+}
+
+/// A triangle as PLY in all encodings, and headers that promise too much.
+fn ply_files() -> [(&'static str, Vec<u8>); 5] {
+    let header = |format: &str| {
+        format!(
+            "ply\nformat {format} 1.0\ncomment c\nelement vertex 3\nproperty float x\nproperty float y\nproperty short z\n\
+             element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+        )
+        .into_bytes()
+    };
+    let ascii = [header("ascii"), b"0 0 0\n9 0 1\n0 9 2\n3 0 1 2\n".to_vec()].concat();
+    let mut least = header("binary_little_endian");
+    let mut greatest = header("binary_big_endian");
+    for [x, y, z] in [[0.0_f32, 0.0, 0.0], [9.0, 0.0, 1.0], [0.0, 9.0, 2.0]] {
+        least.extend([x, y].iter().flat_map(|value| value.to_le_bytes()).chain((z as i16).to_le_bytes()));
+        greatest.extend([x, y].iter().flat_map(|value| value.to_be_bytes()).chain((z as i16).to_be_bytes()));
+    }
+    least.extend([3, 0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0]);
+    greatest.extend([3, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 2]);
+    let promises = b"ply\nformat binary_little_endian 1.0\nelement vertex 4294967296\nproperty list uint double x\nend_header\n\xff\xff\xff\xff";
+    let strips = b"ply\nformat ascii 1.0\nelement tristrips 1\nproperty list int int vertex_indices\nend_header\n3 0 1 2\n";
+    [
+        ("ascii", ascii),
+        ("binary_least_first", least),
+        ("binary_greatest_first", greatest),
+        ("promises", promises.to_vec()),
+        ("strips", strips.to_vec()),
+    ]
+}
+
+/// Models as they stand in 3MF packages; the target packs them.
+fn three_mf_files() -> [(&'static str, &'static str); 4] {
+    [
+        (
+            "tetrahedron",
+            "<?xml version=\"1.0\"?><model unit=\"inch\"><resources><object id=\"1\"><mesh><vertices><vertex x=\"0\" y=\"0\" z=\"0\"/>\
+             <vertex x=\"9\" y=\"0\" z=\"0\"/><vertex x=\"0\" y=\"9\" z=\"0\"/><vertex x=\"0\" y=\"0\" z=\"9\"/></vertices><triangles>\
+             <triangle v1=\"0\" v2=\"2\" v3=\"1\"/><triangle v1=\"0\" v2=\"1\" v3=\"3\"/><triangle v1=\"1\" v2=\"2\" v3=\"3\"/>\
+             <triangle v1=\"2\" v2=\"0\" v3=\"3\"/></triangles></mesh></object></resources><build><item objectid=\"1\"/></build></model>",
+        ),
+        (
+            "components",
+            "<m:model xmlns:m=\"c\"><m:resources><m:object id=\"1\"><mesh><vertices><vertex x=\"0\" y=\"0\" z=\"0\"/><vertex x=\"1\" y=\"0\" z=\"0\"/>\
+             <vertex x=\"0\" y=\"1\" z=\"0\"/></vertices><triangles><triangle v1=\"0\" v2=\"1\" v3=\"2\"/></triangles></mesh></m:object>\
+             <object id=\"2\"><components><component objectid=\"1\" transform=\"-1 0 0 0 1 0 0 0 1 5 6 7\"/><component objectid=\"1\"/></components>\
+             </object><object id=\"3\" type=\"support\"/></m:resources><build><item objectid=\"2\"/><item objectid=\"3\"/></build></m:model>",
+        ),
+        (
+            "cycle",
+            "<model><resources><object id=\"1\"><components><component objectid=\"1\"/><component objectid=\"1\"/></components></object></resources>\
+             <build><item objectid=\"1\" p:path=\"/3D/3dmodel.model\"/></build></model>",
+        ),
+        (
+            "extension",
+            "<model xmlns:b=\"beams\" requiredextensions=\"b q\"><!DOCTYPE x [<!ENTITY e \"e\">]>&e;</model>",
+        ),
+    ]
+}
+
 /// Moves, arcs and comments as slicers write them, and as none should.
 fn gcode_files() -> [(&'static str, &'static str); 5] {
     [
@@ -72,6 +143,15 @@ fn main() -> std::io::Result<()> {
     };
     for (name, bytes) in stl_files() {
         write("read_stl", name, &bytes)?;
+    }
+    for (name, text) in obj_files() {
+        write("read_obj", name, text.as_bytes())?;
+    }
+    for (name, bytes) in ply_files() {
+        write("read_ply", name, &bytes)?;
+    }
+    for (name, text) in three_mf_files() {
+        write("read_three_mf", name, text.as_bytes())?;
     }
     for (name, text) in gcode_files() {
         write("read_gcode", name, text.as_bytes())?;

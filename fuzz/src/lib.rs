@@ -9,9 +9,13 @@
 mod draw;
 mod elastic;
 mod graph;
+mod model;
 mod pipeline;
 mod read_gcode;
+mod read_obj;
+mod read_ply;
 mod read_stl;
+mod read_three_mf;
 mod route;
 mod slice;
 mod support;
@@ -22,7 +26,10 @@ pub use elastic::elastic;
 pub use graph::graph;
 pub use pipeline::pipeline;
 pub use read_gcode::read_gcode;
+pub use read_obj::read_obj;
+pub use read_ply::read_ply;
 pub use read_stl::read_stl;
+pub use read_three_mf::read_three_mf;
 pub use route::route;
 pub use slice::slice;
 pub use support::support;
@@ -32,12 +39,15 @@ pub use tour::tour;
 pub type Target = fn(&[u8]);
 
 /// Every target with its name, which is that of its folder in `seeds/` too.
-pub const TARGETS: [(&str, Target); 9] = [
+pub const TARGETS: [(&str, Target); 12] = [
     ("elastic", elastic),
     ("graph", graph),
     ("pipeline", pipeline),
     ("read_gcode", read_gcode),
+    ("read_obj", read_obj),
+    ("read_ply", read_ply),
     ("read_stl", read_stl),
+    ("read_three_mf", read_three_mf),
     ("route", route),
     ("slice", slice),
     ("support", support),

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use argil::mesh::Unit;
 use clap::{Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
@@ -108,6 +109,13 @@ pub(crate) struct PlaceArgs {
     /// [default: bed where a printer is given whose bed is known, or keep].
     #[arg(long, value_enum)]
     pub(crate) place: Option<Place>,
+    /// The unit of the model's file, where its format has none (STL, OBJ, PLY), or in place of the one that it states (3MF)
+    /// [default: mm, or what the file states].
+    #[arg(long, value_enum)]
+    pub(crate) unit: Option<UnitArg>,
+    /// Memory in GiB that slicing may take: larger models are refused before the work begins.
+    #[arg(long, value_name = "GIB", default_value_t = 4.0)]
+    pub(crate) memory: f64,
     /// Scale the model by this factor.
     #[arg(long, value_name = "F", conflicts_with = "height", allow_negative_numbers = true)]
     pub(crate) scale: Option<f64>,
@@ -126,9 +134,38 @@ pub(crate) enum Place {
     Bed,
 }
 
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum UnitArg {
+    /// 0.001 mm.
+    Micron,
+    /// Millimetres.
+    Mm,
+    /// 10 mm.
+    Cm,
+    /// 25.4 mm.
+    Inch,
+    /// 304.8 mm.
+    Foot,
+    /// 1,000 mm.
+    M,
+}
+
+impl From<UnitArg> for Unit {
+    fn from(unit: UnitArg) -> Self {
+        match unit {
+            UnitArg::Micron => Self::Micron,
+            UnitArg::Mm => Self::Millimetre,
+            UnitArg::Cm => Self::Centimetre,
+            UnitArg::Inch => Self::Inch,
+            UnitArg::Foot => Self::Foot,
+            UnitArg::M => Self::Metre,
+        }
+    }
+}
+
 #[derive(Debug, clap::Args)]
 pub(crate) struct PlanArgs {
-    /// The model: an STL file (binary or ASCII), or sample:NAME.
+    /// The model: an STL, OBJ, PLY or 3MF file, layers in JSON, or sample:NAME.
     #[arg(value_name = "MODEL")]
     pub(crate) model: String,
     /// Where the g-code goes; for a robot cell, the table of poses.
@@ -170,6 +207,9 @@ pub(crate) struct PlanArgs {
     /// Write a table of poses for robot cells as well.
     #[arg(long, value_name = "OUT.csv")]
     pub(crate) poses: Option<PathBuf>,
+    /// Refuse a model that has to be repaired, and tell what is wrong with it and where.
+    #[arg(long)]
+    pub(crate) strict: bool,
     /// Follow the paper's text literally where it is definite. For comparison: such a plan is not sound.
     #[arg(long)]
     pub(crate) paper_exact: bool,
@@ -208,7 +248,7 @@ pub(crate) struct AuditArgs {
     /// The g-code file.
     #[arg(value_name = "OUT.gcode")]
     pub(crate) gcode: PathBuf,
-    /// The model that it was made from: an STL file, or sample:NAME.
+    /// The model that it was made from: an STL, OBJ, PLY or 3MF file, or sample:NAME.
     #[arg(long, value_name = "MODEL")]
     pub(crate) model: String,
     /// Bead width that the tolerances of the audit are meant for, in mm [default: the bead's width].

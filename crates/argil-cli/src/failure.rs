@@ -4,6 +4,8 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use argil::mesh::{Format, MeshError};
+
 /// The plan stands or the file was read, but there are findings.
 pub(crate) const FINDINGS: u8 = 4;
 const BAD_INPUT: u8 = 3;
@@ -16,6 +18,16 @@ pub(crate) enum Failure {
     File { path: PathBuf, doing: &'static str, source: std::io::Error },
     /// The model or g-code is not usable.
     Input { name: String, source: Box<dyn std::error::Error> },
+    /// The model's file is of no format that is read.
+    Format { name: String },
+    /// Layers come in another height than they are to be printed in.
+    LayerHeight { name: String, given: f64, planned: f64 },
+    /// More than is taken.
+    TooLarge { name: String, what: &'static str, found: u64, limit: u64, unit: &'static str },
+    /// Slicing would take more memory than it may.
+    Memory { name: String, needed: f64, given: f64 },
+    /// The model has a defect, and is not to be repaired.
+    Defect { name: String, kind: &'static str, count: usize, at: [f64; 3] },
     /// There is no such bundled model.
     Sample { name: String },
     /// There is no such printer or material.
@@ -50,6 +62,16 @@ impl Failure {
         Self::Input { name: name.to_owned(), source: Box::new(source) }
     }
 
+    /// A model that does not follow its format.
+    pub(crate) fn reading_as(name: &str, format: Format, source: MeshError) -> Self {
+        Self::Input { name: format!("{name}, read as {format}"), source: Box::new(source) }
+    }
+
+    /// A file of layers that cannot be read.
+    pub(crate) fn layers(name: &str, source: impl std::error::Error + 'static) -> Self {
+        Self::Input { name: format!("{name}, read as layers in JSON"), source: Box::new(source) }
+    }
+
     /// A setting that cannot be, under the name that it has on the command line.
     pub(crate) fn option(source: argil::PlanError) -> Self {
         let name = match &source {
@@ -79,6 +101,32 @@ impl fmt::Display for Failure {
         match self {
             Self::File { path, doing, source } => write!(f, "cannot {doing} {}: {source}", path.display()),
             Self::Input { name, source } => write!(f, "{name}: {source}"),
+            Self::Format { name } => {
+                write!(
+                    f,
+                    "{name}: no STL, OBJ, PLY or 3MF file, and no layers in JSON; export the model as one of these"
+                )
+            }
+            Self::LayerHeight { name, given, planned } => {
+                write!(
+                    f,
+                    "{name}: its layers are {given} mm high, the plan's {planned} mm; say --layer-height {given}"
+                )
+            }
+            Self::TooLarge { name, what, found, limit, unit } => {
+                write!(f, "{name}: {what} of {found} {unit} is more than {limit}; reduce the mesh first")
+            }
+            Self::Memory { name, needed, given } => write!(
+                f,
+                "{name}: slicing it is estimated to take {needed:.1} GiB of memory, more than {given}; reduce the mesh, or \
+                 allow more by --memory"
+            ),
+            Self::Defect { name, kind, count, at: [x, y, z] } => {
+                write!(
+                    f,
+                    "{name}: {count} {kind}, the first at ({x:.2}, {y:.2}, {z:.2}); --strict repairs nothing"
+                )
+            }
             Self::Sample { name } => {
                 write!(f, "there is no bundled model `{name}`; `argil samples` lists them")
             }
@@ -116,6 +164,12 @@ fn advice(error: &argil::PlanError) -> Option<&'static str> {
         }
         Slice(argil::slice::SliceError::TooManyLayers { .. } | argil::slice::SliceError::TooWide { .. }) => {
             Some("try --height, or --scale 0.001 if the file is in micrometres")
+        }
+        Slice(argil::slice::SliceError::Open { .. }) => Some(
+            "nothing was written; close the hole in the program that the model was made in, or with one that repairs meshes",
+        ),
+        Slice(argil::slice::SliceError::Gap { .. }) => {
+            Some("nothing was written; without --strict the gap is closed with a straight line")
         }
         Layer { .. } | Seam(_) => Some(
             "nothing was written; try another --layer-height or a smaller --width, or a paste that bears more (--across, --along)",

@@ -2,25 +2,79 @@
 
 use std::path::Path;
 
-use argil::mesh::{Ground, Mesh, Placement, Size, read_stl};
+use argil::mesh::{Format, Ground, Mesh, Placement, Repairs, Size, Soup, Unit};
 use argil::{Material, Settings};
 
 use crate::args::{BeadArgs, Place, PlaceArgs};
 use crate::failure::Failure;
 use crate::profiles::Profiles;
+use crate::{layer_file, limits};
 
 /// What names a bundled model in place of a file.
 const SAMPLE: &str = "sample:";
 
-/// The placed mesh of a file or bundled model.
-pub(crate) fn model(name: &str, place: PlaceArgs, profiles: &Profiles) -> Result<Mesh, Failure> {
+/// Layer heights that differ by less than this share are the same, up to rounding: over 10,000 layers it is a tenth of one.
+const SAME_HEIGHT: f64 = 1e-5;
+
+/// A model as it is planned.
+pub(crate) struct Model {
+    /// Where it is to stand, in its size.
+    pub(crate) mesh: Mesh,
+    /// What was repaired, in the coordinates of the file.
+    pub(crate) repairs: Repairs,
+    /// What else there is to say about the file.
+    pub(crate) remarks: Vec<String>,
+}
+
+/// The placed mesh of a file or bundled model, which is to be cut into layers of this height.
+pub(crate) fn model(
+    name: &str,
+    place: PlaceArgs,
+    profiles: &Profiles,
+    layer_height: f64,
+) -> Result<Model, Failure> {
     let bytes = match name.strip_prefix(SAMPLE) {
         Some(sample) => {
             argil_models::by_name(sample).ok_or_else(|| Failure::Sample { name: sample.to_owned() })?.to_stl()
         }
-        None => std::fs::read(name).map_err(|source| Failure::reading(Path::new(name), source))?,
+        None => {
+            limits::check_file(Path::new(name))?;
+            std::fs::read(name).map_err(|source| Failure::reading(Path::new(name), source))?
+        }
     };
-    let mesh = read_stl(&bytes).map_err(|source| Failure::input(name, source))?;
+    if layer_file::is_layer_file(&bytes) {
+        let layers = layer_file::read(name, &bytes, place.unit)?;
+        let mesh = placed(name, &layers.mesh, place, profiles)?;
+        let given = layers.layer_height * (mesh.bounds().size()[2] / layers.mesh.bounds().size()[2]);
+        if (given / layer_height - 1.0).abs() > SAME_HEIGHT {
+            return Err(Failure::LayerHeight { name: name.to_owned(), given, planned: layer_height });
+        }
+        limits::check_mesh(Path::new(name), &mesh, layer_height, place.memory)?;
+        return Ok(Model { mesh, repairs: Repairs::default(), remarks: Vec::new() });
+    }
+    let (soup, remarks) = soup(name, bytes, place)?;
+    let (mesh, repairs) = soup.repaired().map_err(|source| Failure::input(name, source))?;
+    let mesh = placed(name, &mesh, place, profiles)?;
+    limits::check_mesh(Path::new(name), &mesh, layer_height, place.memory)?;
+    Ok(Model { mesh, repairs, remarks })
+}
+
+/// The triangles of a model file in millimetres, and what is to be said about it.
+fn soup(name: &str, bytes: Vec<u8>, place: PlaceArgs) -> Result<(Soup, Vec<String>), Failure> {
+    let extension = Path::new(name).extension().and_then(|extension| extension.to_str());
+    let format = Format::of(&bytes, extension).ok_or_else(|| Failure::Format { name: name.to_owned() })?;
+    let soup = format.read(&bytes).map_err(|source| Failure::reading_as(name, format, source))?;
+    drop(bytes);
+    let mut remarks: Vec<String> = soup.remarks.iter().map(ToString::to_string).collect();
+    let unit = place.unit.map(Unit::from).or(soup.unit);
+    if unit.is_none() && place.scale.is_none() && place.height.is_none() {
+        remarks.extend(odd_size(&soup));
+    }
+    Ok((soup.in_millimetres(unit.unwrap_or(Unit::Millimetre)), remarks))
+}
+
+/// The mesh in its size and place.
+fn placed(name: &str, mesh: &Mesh, place: PlaceArgs, profiles: &Profiles) -> Result<Mesh, Failure> {
     let size = match (place.scale, place.height) {
         (Some(factor), _) => Size::Scale(factor),
         (_, Some(height)) => Size::Height(height),
@@ -34,6 +88,15 @@ pub(crate) fn model(name: &str, place: PlaceArgs, profiles: &Profiles) -> Result
         None => bed.unwrap_or(Ground::Keep),
     };
     mesh.placed(&Placement { size, ground }).map_err(|source| Failure::input(name, source))
+}
+
+/// What is odd about the size of a model whose file states no unit; nothing is guessed.
+fn odd_size(soup: &Soup) -> Option<String> {
+    let extent = soup.bounds().size().into_iter().fold(f64::NEG_INFINITY, f64::max);
+    let hint = Unit::hint(extent)?;
+    Some(format!(
+        "its largest extent is {extent} mm; if that is odd, say in which unit it was made, as by --unit {hint}"
+    ))
 }
 
 /// The settings of a plan: options first, then printer and material, then defaults.

@@ -1,8 +1,8 @@
 //! Files that are written whole or not at all.
 
-use std::io::Write;
-use std::path::Path;
-use std::{fs, io};
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
 
 use crate::failure::Failure;
 
@@ -21,14 +21,35 @@ pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
             .and_then(|()| if bytes.ends_with(b"\n") { Ok(()) } else { out.write_all(b"\n") })
             .map_err(|source| Failure::writing(path, source));
     }
-    let mut partial = path.as_os_str().to_owned();
-    partial.push(".part");
-    let partial = Path::new(&partial);
-    fs::write(partial, bytes).and_then(|()| fs::rename(partial, path)).map_err(|source| {
+    let failed = |source| Failure::writing(path, source);
+    // A link is followed, and what is no file, as `/dev/null`, is written to and not replaced.
+    let place = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    if fs::metadata(&place).is_ok_and(|found| !found.is_file()) {
+        return fs::write(&place, bytes).map_err(failed);
+    }
+    let (partial, mut file) = partial(&place).map_err(failed)?;
+    let written =
+        file.write_all(bytes).and_then(|()| file.sync_all()).and_then(|()| fs::rename(&partial, &place));
+    written.map_err(|source| {
         // What is left of a failed write is of no use; that it may be gone already is no second failure.
-        drop(fs::remove_file(partial));
-        Failure::writing(path, source)
+        drop(fs::remove_file(&partial));
+        failed(source)
     })
+}
+
+/// A new file beside a place, under a name that nothing has.
+fn partial(place: &Path) -> io::Result<(PathBuf, File)> {
+    const TRIES: u32 = 100;
+    let mut number = 0;
+    loop {
+        let mut name = place.as_os_str().to_owned();
+        name.push(format!(".{}-{number}.part", std::process::id()));
+        match File::create_new(&name) {
+            Ok(file) => return Ok((name.into(), file)),
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists && number < TRIES => number += 1,
+            Err(error) => return Err(error),
+        }
+    }
 }
 
 /// Refuses a place where nothing can be written, so that a long plan does not end there.

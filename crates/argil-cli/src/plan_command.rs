@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use std::thread;
 
 use argil::gcode::{Extrusion, GcodeError, GcodeSettings, Poses, write_gcode};
-use argil::mesh::Mesh;
+use argil::mesh::{Mesh, Repairs};
 use argil::{Plan, PlanError, Planner, Settings, literal};
 use argil_audit::Report;
 use argil_preview::{SvgStyle, ViewStyle, layer_svg, overview_svg, png};
@@ -14,7 +14,9 @@ use argil_preview::{SvgStyle, ViewStyle, layer_svg, overview_svg, png};
 use crate::args::PlanArgs;
 use crate::audit_command::measure;
 use crate::cleaning_page::cleaning_page;
+use crate::closed_slices::ClosedSlices;
 use crate::failure::{FINDINGS, Failure};
+use crate::input::Model;
 use crate::preview_page::preview_page;
 use crate::profiles::Profiles;
 use crate::progress::{PlanBar, Waiting};
@@ -32,7 +34,13 @@ pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
     let files = [&args.report, &args.strand, &args.png, &args.preview, &args.cleaning, &args.poses]
         .map(Option::as_ref);
     files.into_iter().chain([Some(&args.output)]).flatten().try_for_each(|path| output::check(path))?;
-    let mesh = input::model(&args.model, args.place, &profiles)?;
+    let Model { mesh, repairs, remarks } =
+        input::model(&args.model, args.place, &profiles, settings.layer_height)?;
+    if args.strict {
+        refuse_defects(&args.model, &repairs)?;
+    }
+    remarks.iter().for_each(|remark| eprintln!("note: {}: {remark}", args.model));
+    repairs.to_string().lines().for_each(|line| eprintln!("repair: {}: {line}", args.model));
     let plan =
         plan(&mesh, &settings, args)?.map_err(|source| Failure::Plan { name: args.model.clone(), source })?;
 
@@ -59,11 +67,21 @@ pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
         output::write(path, &json(&plan.strand)?)?;
     }
     if let Some(path) = &args.report {
-        output::write(path, &json(&PlanReport::new(&args.model, settings, &plan, audit.as_ref()))?)?;
+        output::write(
+            path,
+            &json(&PlanReport::new(&args.model, settings, &repairs, &plan, audit.as_ref()))?,
+        )?;
     }
 
     machine::remarks(&profiles, &args.job(), &plan.strand).iter().for_each(|remark| eprintln!("{remark}"));
     Ok(verdict(args, &plan, audit.as_ref()))
+}
+
+/// Refuses a model that had to be repaired, by its worst defect.
+fn refuse_defects(name: &str, repairs: &Repairs) -> Result<(), Failure> {
+    let Some((kind, places)) = repairs.worst() else { return Ok(()) };
+    let at = places.first.first().copied().unwrap_or_default();
+    Err(Failure::Defect { name: name.to_owned(), kind, count: places.count, at })
 }
 
 /// Says what was planned and found; the exit status tells whether there are findings.
@@ -111,14 +129,23 @@ fn plan(mesh: &Mesh, settings: &Settings, args: &PlanArgs) -> Result<Result<Plan
     let work = || {
         let mut follow = |progress| bar.follow(progress);
         if args.paper_exact {
-            literal::planner().plan_observed(mesh, settings, &mut follow)
+            refusing_holes(literal::planner(), args.strict).plan_observed(mesh, settings, &mut follow)
         } else {
-            Planner::default().plan_observed(mesh, settings, &mut follow)
+            refusing_holes(Planner::default(), args.strict).plan_observed(mesh, settings, &mut follow)
         }
     };
     let plan = with_threads(usize::from(args.threads), work)?;
     bar.finish();
     Ok(plan)
+}
+
+/// The same planner, which goes no further where an outline is open.
+fn refusing_holes<S, G, U, R, E, T, C>(
+    planner: Planner<S, G, U, R, E, T, C>,
+    strict: bool,
+) -> Planner<ClosedSlices<S>, G, U, R, E, T, C> {
+    let Planner { slice, safeguard, support, route, smooth, taut, seam, checked } = planner;
+    Planner { slice: ClosedSlices { slice, strict }, safeguard, support, route, smooth, taut, seam, checked }
 }
 
 /// Runs a piece of work that may spread over this many threads.

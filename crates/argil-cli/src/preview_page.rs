@@ -104,6 +104,8 @@ fn finding(finding: &argil_audit::Finding, sound: bool) -> PageMark {
 fn loss(loss: &Loss) -> PageMark {
     let (kind, measure, unit) = match *loss {
         Loss::OpenOutline { length, .. } => ("open outline left out", length, "mm"),
+        Loss::ClosedGap { gap, .. } => ("gap in an outline closed", gap, "mm"),
+        Loss::Stray { length, .. } => ("open piece that bounds nothing left out", length, "mm"),
         Loss::Thin { area, .. } => ("thinner than a bead", area, "mm²"),
         Loss::Narrow { length, .. } => ("part thinner than a bead", length, "mm"),
         Loss::Vanished { area, .. } => ("too small to print", area, "mm²"),

@@ -1,5 +1,6 @@
 //! What the program says about a plan: a summary for people, JSON for programs.
 
+use argil::mesh::Repairs;
 use argil::slice::Loss;
 use argil::strand::Role;
 use argil::{LayerReport, Plan, Settings};
@@ -17,6 +18,7 @@ pub(crate) struct PlanReport<'a> {
     version: &'static str,
     model: &'a str,
     settings: Settings,
+    repairs: RepairsReport,
     layers: usize,
     transfers: usize,
     strand_mm: f64,
@@ -40,8 +42,42 @@ struct LossReport {
     measure: f64,
 }
 
+/// What was repaired before there was a mesh to plan.
+#[derive(Serialize)]
+struct RepairsReport {
+    shells: usize,
+    welded_vertices: usize,
+    defects: Vec<DefectReport>,
+}
+
+/// A kind of defect, how often it was met, and the first places in millimetres of the file's coordinates.
+#[derive(Serialize)]
+struct DefectReport {
+    kind: &'static str,
+    count: usize,
+    first_at: Vec<[f64; 3]>,
+}
+
+impl RepairsReport {
+    fn new(repairs: &Repairs) -> Self {
+        let met = repairs.listed().into_iter().filter(|(_, places)| places.count > 0);
+        let defects = met.map(|(kind, places)| DefectReport {
+            kind,
+            count: places.count,
+            first_at: places.first.clone(),
+        });
+        Self { shells: repairs.shells, welded_vertices: repairs.welded, defects: defects.collect() }
+    }
+}
+
 impl<'a> PlanReport<'a> {
-    pub(crate) fn new(model: &'a str, settings: Settings, plan: &'a Plan, audit: Option<&'a Report>) -> Self {
+    pub(crate) fn new(
+        model: &'a str,
+        settings: Settings,
+        repairs: &Repairs,
+        plan: &'a Plan,
+        audit: Option<&'a Report>,
+    ) -> Self {
         let strand = &plan.strand;
         Self {
             schema: SCHEMA,
@@ -49,6 +85,7 @@ impl<'a> PlanReport<'a> {
             version: env!("CARGO_PKG_VERSION"),
             model,
             settings,
+            repairs: RepairsReport::new(repairs),
             layers: strand.layers().len(),
             // A strand is one polyline: there is no way to hold a transfer in it.
             transfers: 0,
@@ -68,6 +105,8 @@ impl<'a> PlanReport<'a> {
 fn loss(loss: &Loss) -> LossReport {
     let (kind, measure) = match *loss {
         Loss::OpenOutline { length, .. } => ("open outline, mm left out", length),
+        Loss::ClosedGap { gap, .. } => ("gap in an outline closed, mm wide", gap),
+        Loss::Stray { length, .. } => ("open piece that bounds nothing left out, mm", length),
         Loss::Thin { area, .. } => ("thinner than a bead, mm²", area),
         Loss::Narrow { length, .. } => ("part thinner than a bead, mm of its middle line", length),
         Loss::Vanished { area, .. } => ("too small to print, mm²", area),
@@ -98,8 +137,11 @@ pub(crate) fn summary(plan: &Plan) -> String {
         rest / 1e3,
         rest / model.max(1e-9),
     );
-    for (kind, count) in losses(plan) {
-        text.push_str(&format!("note: {count} places: {kind}\n"));
+    for (kind, count, first) in losses(plan) {
+        text.push_str(&format!(
+            "note: {count} places: {kind}, the first in layer {} at ({:.2}, {:.2})\n",
+            first.layer, first.at[0], first.at[1]
+        ));
     }
     let times: Vec<String> = plan
         .times
@@ -136,14 +178,14 @@ pub(crate) fn cleaning(report: &Report) -> String {
     text
 }
 
-/// How many losses there are of each kind.
-fn losses(plan: &Plan) -> Vec<(String, usize)> {
-    let mut kinds: Vec<(String, usize)> = Vec::new();
+/// How many losses there are of each kind, and the first one.
+fn losses(plan: &Plan) -> Vec<(String, usize, LossReport)> {
+    let mut kinds: Vec<(String, usize, LossReport)> = Vec::new();
     for loss in plan.losses.iter().map(loss) {
         let name = loss.kind.split(',').next().unwrap_or_default();
-        match kinds.iter_mut().find(|(kind, _)| kind == name) {
-            Some((_, count)) => *count += 1,
-            None => kinds.push((name.to_owned(), 1)),
+        match kinds.iter_mut().find(|(kind, ..)| kind == name) {
+            Some((_, count, _)) => *count += 1,
+            None => kinds.push((name.to_owned(), 1, loss)),
         }
     }
     kinds

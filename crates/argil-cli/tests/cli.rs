@@ -315,6 +315,48 @@ fn an_old_file_survives_a_failure() {
 }
 
 #[test]
+fn a_finished_file_takes_the_place_of_an_old_one_and_nothing_else() {
+    let folder = folder("replaces");
+    for name in ["out.gcode", "out.gcode.part", "linked.gcode"] {
+        fs::write(folder.join(name), "what was there").unwrap();
+    }
+    ends(&folder, DONE, &[&["plan", "-o", "out.gcode"], &QUICK[..]].concat());
+    let new = fs::read_to_string(folder.join("out.gcode")).unwrap();
+    assert!(new.contains(";LAYER:0\n"));
+    assert_eq!(names(&folder), ["linked.gcode", "out.gcode", "out.gcode.part"]);
+    assert_eq!(fs::read_to_string(folder.join("out.gcode.part")).unwrap(), "what was there");
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("linked.gcode", folder.join("link.gcode")).unwrap();
+        ends(&folder, DONE, &[&["plan", "-o", "link.gcode"], &QUICK[..]].concat());
+        assert!(fs::symlink_metadata(folder.join("link.gcode")).unwrap().is_symlink());
+        assert!(fs::read_to_string(folder.join("linked.gcode")).unwrap() == new);
+        // A device stays one.
+        ends(&folder, DONE, &[&["plan", "-o", "/dev/null"], &QUICK[..]].concat());
+        assert!(!fs::metadata("/dev/null").unwrap().is_file());
+    }
+}
+
+#[test]
+fn models_beyond_the_limits_are_refused_before_the_work_begins() {
+    let folder = folder("limits");
+    let plan = |extra: &[&str], status: i32, says: &[&str]| {
+        fails(&folder, status, &[&["plan", "-o", "out.gcode"], extra].concat(), says);
+    };
+    plan(&["sample:columns", "--memory", "0.001"], BAD_INPUT, &["sample:columns", "GiB", "--memory"]);
+    plan(&["sample:columns", "--memory", "0.1", "--layer-height", "0.001"], BAD_INPUT, &["--memory"]);
+    // A file with a hole in it takes no room on the disk.
+    fs::File::create(folder.join("huge.stl")).unwrap().set_len(5 << 30).unwrap();
+    plan(&["huge.stl"], BAD_INPUT, &["huge.stl", "more than 4294967296", "reduce"]);
+    let far = tetrahedron(20.0, 20.0).iter().map(|t| t.map(|[x, y, z]| [x + 2e6, y, z])).collect::<Vec<_>>();
+    fs::write(folder.join("far.stl"), stl(&far)).unwrap();
+    plan(&["far.stl"], BAD_INPUT, &["far.stl", "beyond 1e6 mm"]);
+    fs::write(folder.join("small.stl"), stl(&tetrahedron(0.1, 0.1))).unwrap();
+    plan(&["small.stl"], BAD_INPUT, &["small.stl", "less than half a layer", "--unit m"]);
+    plan(&["small.stl", "--width", "0.01"], BAD_INPUT, &["--grid", "thousandth of the width"]);
+}
+
+#[test]
 fn places_that_cannot_be_written() {
     let folder = folder("unwritable");
     fails(&folder, BAD_INPUT, &[&["plan", "-o", "none/out.gcode"], &QUICK[..]].concat(), &["none/out.gcode"]);

@@ -53,6 +53,14 @@ impl EdgeTable {
         &self.ends
     }
 
+    /// How many triangles each edge has: two everywhere in a closed mesh.
+    #[must_use]
+    pub fn triangle_counts(&self) -> Vec<u32> {
+        let mut counts = vec![0; self.ends.len()];
+        self.of_triangle.iter().flatten().for_each(|&edge| counts[edge as usize] += 1);
+        counts
+    }
+
     /// The three edges of each triangle: number k runs from its corner k to its corner k + 1.
     #[must_use]
     pub fn of_triangles(&self) -> &[[u32; 3]] {
@@ -69,5 +77,6 @@ mod tests {
         let table = EdgeTable::new(4, &[[0, 1, 2], [2, 1, 3]]);
         assert_eq!(table.ends(), [[0, 1], [0, 2], [1, 2], [1, 3], [2, 3]]);
         assert_eq!(table.of_triangles(), [[0, 2, 1], [2, 3, 4]]);
+        assert_eq!(table.triangle_counts(), [1, 1, 2, 1, 1]);
     }
 }

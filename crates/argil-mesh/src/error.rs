@@ -1,5 +1,13 @@
 use thiserror::Error;
 
+fn at_line(line: usize) -> String {
+    if line == 0 { String::new() } else { format!("line {line}: ") }
+}
+
+fn at_byte(position: u64) -> String {
+    if position == 0 { String::new() } else { format!(", byte {position}") }
+}
+
 /// Why bytes are no mesh, or why a mesh cannot be placed.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
@@ -20,13 +28,37 @@ pub enum MeshError {
         /// Bytes after the last whole triangle.
         extra: u64,
     },
-    /// Neither a binary STL nor a text one.
-    #[error("no STL: line {line}: expected {expected}")]
+    /// A file that does not follow its format.
+    #[error("{}expected {expected}", at_line(*line))]
     Unreadable {
         /// The line of the text, counted from 1 (0 where the file is no text).
         line: usize,
         /// What should have stood there.
         expected: &'static str,
+    },
+    /// A part of a 3MF package that does not follow the format.
+    #[error("{part}{}: expected {expected}", at_byte(*position))]
+    Package {
+        /// The name of the part.
+        part: String,
+        /// The byte of the part where it goes wrong (0 where it is wrong as a whole).
+        position: u64,
+        /// What should have been there.
+        expected: &'static str,
+    },
+    /// A part of a 3MF package that unpacks to more than a mesh may take, or than its packed size makes likely.
+    #[error("{part} unpacks to more than {limit} bytes")]
+    Unpacked {
+        /// The name of the part.
+        part: String,
+        /// The limit in bytes.
+        limit: u64,
+    },
+    /// Something that the format allows and that is not read here.
+    #[error("not supported: {what}")]
+    Unsupported {
+        /// What, and what would do.
+        what: String,
     },
     /// The file is well formed, but no triangle has three different corners.
     #[error("no triangle with three different corners")]

@@ -1,14 +1,14 @@
-use crate::weld::{Welded, weld};
-use crate::{EdgeTable, MeshError, Placement, placement, winding};
+use crate::shells::turned_outwards;
+use crate::{EdgeTable, MeshError, Placement, Repairs, Soup, placement, winding};
 
-/// Coordinates beyond this are refused: their squares and cubes (areas, volumes) must stay exact
-/// enough to compare, and nobody prints a thousand kilometres.
-pub(crate) const LARGEST: f64 = 1e9;
+/// Coordinates beyond this are refused: a kilometre from the origin the output grid of 1e-4 mm is still a
+/// million times coarser than the numbers, and nobody prints there.
+pub(crate) const LARGEST: f64 = 1e6;
 
 /// A triangle mesh whose coincident vertices are one vertex.
 ///
 /// Corners of a triangle run counter-clockwise seen from outside the solid. Every index is valid,
-/// every coordinate finite, and no triangle names a vertex twice: the constructors see to it.
+/// every coordinate finite, no triangle names a vertex twice, and no two have the same corners: the constructors see to it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
     vertices: Vec<[f64; 3]>,
@@ -37,15 +37,17 @@ impl Bounds {
         [0, 1, 2].map(|axis| 0.5 * (self.min[axis] + self.max[axis]))
     }
 
-    pub(crate) fn of(points: &[[f64; 3]]) -> Self {
+    pub(crate) fn of<'p>(points: impl IntoIterator<Item = &'p [f64; 3]>) -> Self {
         let mut bounds = Self { min: [f64::INFINITY; 3], max: [f64::NEG_INFINITY; 3] };
-        for point in points {
-            for (axis, &value) in point.iter().enumerate() {
-                bounds.min[axis] = bounds.min[axis].min(value);
-                bounds.max[axis] = bounds.max[axis].max(value);
-            }
-        }
+        points.into_iter().for_each(|point| bounds.include(point));
         bounds
+    }
+
+    pub(crate) fn include(&mut self, point: &[f64; 3]) {
+        for (axis, &value) in point.iter().enumerate() {
+            self.min[axis] = self.min[axis].min(value);
+            self.max[axis] = self.max[axis].max(value);
+        }
     }
 }
 
@@ -57,7 +59,9 @@ impl Mesh {
     /// own; sections can be chained only where neighbours share vertices. Triangles with fewer
     /// than three different corners are dropped: they enclose nothing and their neighbours meet
     /// without them. Thin triangles of no area but three corners stay, since their neighbours
-    /// need them. Vertices that no triangle uses are dropped.
+    /// need them. Of triangles with the same corners one stays; where bodies touch in a face that both have, neither of the two
+    /// does, so that the bodies are one. Vertices that no triangle uses are dropped. [`Soup::repaired`] does the same and
+    /// counts what it drops.
     ///
     /// # Errors
     /// [`MeshError::NoSuchVertex`] for a wrong index, [`MeshError::NotFinite`] for a coordinate
@@ -65,7 +69,7 @@ impl Mesh {
     /// [`MeshError::TooMany`] beyond 32-bit indices.
     ///
     /// # Complexity
-    /// Linear in the number of triangles.
+    /// O(n log n) in the triangles.
     ///
     /// # Example
     /// ```
@@ -77,25 +81,13 @@ impl Mesh {
     /// # Ok::<(), argil_mesh::MeshError>(())
     /// ```
     pub fn new(vertices: Vec<[f64; 3]>, triangles: Vec<[u32; 3]>) -> Result<Self, MeshError> {
-        if u32::try_from(vertices.len()).is_err() {
-            return Err(MeshError::TooMany { count: vertices.len() });
-        }
-        for (index, corners) in triangles.iter().enumerate() {
-            for &corner in corners {
-                let Some(point) = vertices.get(corner as usize) else {
-                    return Err(MeshError::NoSuchVertex { triangle: index, vertex: corner });
-                };
-                // The negated comparison also catches what is not a number.
-                if !point.iter().all(|value| value.abs() <= LARGEST) {
-                    return Err(MeshError::NotFinite { triangle: index });
-                }
-            }
-        }
-        let Welded { vertices, triangles } = weld(vertices, triangles);
-        if triangles.is_empty() {
-            return Err(MeshError::NoTriangles);
-        }
-        Ok(Self { vertices, triangles })
+        let soup = Soup { vertices, triangles, ..Soup::default() };
+        soup.welded().map(|(mesh, _)| mesh)
+    }
+
+    /// Parts that are known to be a mesh.
+    pub(crate) fn of_parts(vertices: Vec<[f64; 3]>, triangles: Vec<[u32; 3]>) -> Self {
+        Self { vertices, triangles }
     }
 
     /// The corners, each once, in millimetres.
@@ -149,21 +141,43 @@ impl Mesh {
         EdgeTable::new(self.vertices.len(), &self.triangles)
     }
 
-    /// The same surface with windings that agree between neighbours.
+    /// The same surface with windings that agree between neighbours and shells that face outwards.
     ///
     /// Over each edge that just two triangles share, both must run opposite ways. In every
-    /// connected patch the side that has more area keeps its winding and the rest is turned over.
-    /// A patch as a whole is never turned over: a cavity is wound the other way on purpose, and a
-    /// non-zero winding rule takes a model that is wholly inside out for what it is.
+    /// connected patch the side that has more area keeps its winding and the rest is turned over. Then every shell
+    /// that is inside out (it encloses a negative volume) is turned over as a whole, together with all that lies inside it,
+    /// unless it lies inside another shell itself: there it is a cavity. Without that, a shell that is inside out and
+    /// overlaps a sound one would cut a hole where both are.
     ///
     /// # Complexity
-    /// Near linear in the number of triangles.
+    /// Near linear in the number of triangles; where shells are inside out, each of them is sought in every larger one.
     #[must_use]
     pub fn oriented(&self) -> Self {
-        Self {
-            vertices: self.vertices.clone(),
-            triangles: winding::agreeing(&self.vertices, &self.triangles, &self.edges()),
+        self.turned_outwards(&mut Repairs::default())
+    }
+
+    /// The mesh as [`Mesh::oriented`] has it; what was turned over, and edges that do not have two triangles, are noted.
+    pub(crate) fn turned_outwards(&self, repairs: &mut Repairs) -> Self {
+        let edges = self.edges();
+        let middle = |corners: &[u32]| {
+            let sum = |axis: usize| corners.iter().map(|&k| self.vertices[k as usize][axis]).sum::<f64>();
+            [0, 1, 2].map(|axis| sum(axis) / corners.len() as f64)
+        };
+        for (ends, count) in edges.ends().iter().zip(edges.triangle_counts()) {
+            match count {
+                1 => repairs.open_edges.note(middle(ends)),
+                2 => {}
+                _ => repairs.crowded_edges.note(middle(ends)),
+            }
         }
+        let mut wound = winding::agreeing(&self.vertices, &self.triangles, &edges);
+        for &triangle in &wound.turned {
+            repairs.turned_triangles.note(middle(&self.triangles[triangle as usize]));
+        }
+        let turned = turned_outwards(&self.vertices, &mut wound, &edges);
+        repairs.shells = turned.shells;
+        turned.triangles.iter().for_each(|corners| repairs.turned_shells.note(middle(corners)));
+        Self { vertices: self.vertices.clone(), triangles: wound.triangles }
     }
 
     /// The mesh scaled and moved onto the bed: its lowest point comes to lie at z = 0.

@@ -1,3 +1,4 @@
+use crate::Places;
 use crate::mesh::Bounds;
 use std::collections::HashMap;
 
@@ -16,26 +17,38 @@ const NONE: u32 = u32::MAX;
 pub(crate) struct Welded {
     pub(crate) vertices: Vec<[f64; 3]>,
     pub(crate) triangles: Vec<[u32; 3]>,
+    /// How many vertices became one with another that was not quite in their place.
+    pub(crate) moved: usize,
+    /// Triangles that had fewer than three different corners, and are left out.
+    pub(crate) degenerate: Places,
 }
 
 /// Indices must be valid, and the coordinates of the vertices that triangles use finite. Vertices keep
 /// their order, so that the same input always gives the same indices.
 pub(crate) fn weld(vertices: Vec<[f64; 3]>, triangles: Vec<[u32; 3]>) -> Welded {
-    let used = compact(vertices, triangles);
-    let size = Bounds::of(&used.vertices).size();
+    let (vertices, mut triangles) = compact(vertices, triangles);
+    let size = Bounds::of(&vertices).size();
     let diagonal = size.iter().map(|extent| extent * extent).sum::<f64>().sqrt();
     let mut pool = Pool::new(TOLERANCE * diagonal);
-    let names: Vec<u32> = used.vertices.into_iter().map(|vertex| pool.take(vertex)).collect();
-    let mut triangles = used.triangles;
+    let names: Vec<u32> = vertices.into_iter().map(|vertex| pool.take(vertex)).collect();
+    let mut degenerate = Places::default();
     triangles.retain_mut(|corners| {
         *corners = corners.map(|corner| names[corner as usize]);
-        corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0]
+        let is_triangle = corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0];
+        if !is_triangle {
+            degenerate.note(pool.vertices[corners[0] as usize]);
+        }
+        is_triangle
     });
-    compact(pool.vertices, triangles)
+    let (vertices, triangles) = compact(pool.vertices, triangles);
+    Welded { vertices, triangles, moved: pool.moved, degenerate }
 }
 
 /// Drops the vertices that no triangle uses.
-fn compact(mut vertices: Vec<[f64; 3]>, mut triangles: Vec<[u32; 3]>) -> Welded {
+pub(crate) fn compact(
+    mut vertices: Vec<[f64; 3]>,
+    mut triangles: Vec<[u32; 3]>,
+) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
     let mut names = vec![NONE; vertices.len()];
     for &corner in triangles.iter().flatten() {
         names[corner as usize] = 0;
@@ -52,7 +65,7 @@ fn compact(mut vertices: Vec<[f64; 3]>, mut triangles: Vec<[u32; 3]>) -> Welded 
     for corner in triangles.iter_mut().flatten() {
         *corner = names[*corner as usize];
     }
-    Welded { vertices, triangles }
+    (vertices, triangles)
 }
 
 /// The vertices kept so far, found again by cell. The map is only ever asked, never iterated, so
@@ -63,11 +76,12 @@ struct Pool {
     /// The vertex met before in the same cell.
     previous: Vec<u32>,
     newest: HashMap<[i64; 3], u32>,
+    moved: usize,
 }
 
 impl Pool {
     fn new(tolerance: f64) -> Self {
-        Self { tolerance, vertices: Vec::new(), previous: Vec::new(), newest: HashMap::new() }
+        Self { tolerance, vertices: Vec::new(), previous: Vec::new(), newest: HashMap::new(), moved: 0 }
     }
 
     /// The nearest kept vertex within the tolerance, or this point as a new one.
@@ -94,6 +108,7 @@ impl Pool {
             }
         }
         if best.1 != NONE {
+            self.moved += usize::from(best.0 > 0.0);
             return best.1;
         }
         let index = self.vertices.len() as u32;

@@ -1,3 +1,4 @@
+use glam::DVec2;
 use thiserror::Error;
 
 /// Why a mesh cannot be sliced.
@@ -41,6 +42,27 @@ pub enum SliceError {
         /// How many are allowed.
         limit: usize,
     },
+    /// A contour with a coordinate that is not finite or is too large.
+    #[error(
+        "contour {contour} of layer {layer} has a coordinate that is not finite or is beyond {limit:e} mm"
+    )]
+    Contour {
+        /// The layer, 0 at the bottom.
+        layer: usize,
+        /// The contour in it.
+        contour: usize,
+        /// The largest coordinate.
+        limit: f64,
+    },
+    /// No contour encloses anything.
+    #[error("no layer has a contour that encloses anything")]
+    NoContours,
+    /// Contours with more points than a mesh can name.
+    #[error("the contours have more than {limit} points")]
+    TooManyPoints {
+        /// How many there may be.
+        limit: usize,
+    },
     /// A mesh so wide that the polygon kernel's 30-bit grid becomes coarser than the output grid.
     #[error("the mesh is {extent} mm wide, more than {limit} mm: is it in millimetres?")]
     TooWide {
@@ -49,4 +71,40 @@ pub enum SliceError {
         /// The largest extent for this output grid.
         limit: f64,
     },
+    /// The mesh has a hole that leaves an outline open; given by [`check_closed`](crate::check_closed) alone.
+    #[error(
+        "layer {layer}, near ({:.2}, {:.2}): the mesh has a hole; {length:.2} mm of outline cannot be closed across {gap:.2} mm{}",
+        at.x, at.y, and_others(*others)
+    )]
+    Open {
+        /// The layer with the longest open piece.
+        layer: usize,
+        /// One end of that piece.
+        at: DVec2,
+        /// Its length in millimetres.
+        length: f64,
+        /// Distance in millimetres between its ends.
+        gap: f64,
+        /// How many more open pieces there are.
+        others: usize,
+    },
+    /// The mesh has a hole that was closed; given by [`check_closed`](crate::check_closed) alone, where that is not wanted.
+    #[error(
+        "layer {layer}, near ({:.2}, {:.2}): the mesh has a hole; the outline is open by {gap:.2} mm{}",
+        at.x, at.y, and_others(*others)
+    )]
+    Gap {
+        /// The layer with the widest gap.
+        layer: usize,
+        /// The middle of the gap.
+        at: DVec2,
+        /// Its width in millimetres.
+        gap: f64,
+        /// How many more gaps there are.
+        others: usize,
+    },
+}
+
+fn and_others(count: usize) -> String {
+    if count == 0 { String::new() } else { format!(", and {count} more such places") }
 }

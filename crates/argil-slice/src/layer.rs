@@ -45,7 +45,7 @@ pub struct WallLoop {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Loss {
-    /// The cut through the mesh has an end: the mesh has a hole wider than the allowed gap here.
+    /// The cut through the mesh has an end: the mesh has a hole here that is too wide to close without guessing.
     OpenOutline {
         /// The layer.
         layer: usize,
@@ -55,6 +55,24 @@ pub enum Loss {
         length: f64,
         /// Distance in millimetres between its ends.
         gap: f64,
+    },
+    /// The mesh has a hole here, and the outline was closed with a straight line across it.
+    ClosedGap {
+        /// The layer.
+        layer: usize,
+        /// The middle of the gap.
+        at: DVec2,
+        /// Its width in millimetres.
+        gap: f64,
+    },
+    /// An open piece of surface that bounds nothing was left out: it lies inside the solid, or is too short to show.
+    Stray {
+        /// The layer.
+        layer: usize,
+        /// One end of it.
+        at: DVec2,
+        /// Its length in millimetres.
+        length: f64,
     },
     /// An outline is everywhere thinner than a bead: its wall runs along the middle, less than w/2 inside, and
     /// prints it wider than it is.
@@ -74,7 +92,7 @@ pub enum Loss {
         layer: usize,
         /// A point inside the outline.
         at: DVec2,
-        /// The outline's area in square millimetres.
+        /// The outline's area in square millimetres; 0 for a sheet that has two sides and nothing between them.
         area: f64,
     },
     /// Part of an outline is thinner than a bead: its wall runs there and back along the middle, and
@@ -113,6 +131,8 @@ impl Loss {
     pub fn layer(&self) -> usize {
         match *self {
             Self::OpenOutline { layer, .. }
+            | Self::ClosedGap { layer, .. }
+            | Self::Stray { layer, .. }
             | Self::Thin { layer, .. }
             | Self::Vanished { layer, .. }
             | Self::Narrow { layer, .. }
@@ -126,6 +146,8 @@ impl Loss {
     pub fn at(&self) -> DVec2 {
         match *self {
             Self::OpenOutline { at, .. }
+            | Self::ClosedGap { at, .. }
+            | Self::Stray { at, .. }
             | Self::Thin { at, .. }
             | Self::Vanished { at, .. }
             | Self::Narrow { at, .. }

@@ -19,6 +19,16 @@ pub(crate) fn wound_region(contours: Vec<Vec<DVec2>>, least_area: f64) -> MultiP
     region
 }
 
+/// The region inside an odd number of contours, whichever way they run. Pieces of less than `least_area` are dropped.
+pub(crate) fn parity_region(contours: &[Vec<DVec2>], least_area: f64) -> MultiPolygon<f64> {
+    let rings = contours.iter().filter(|ring| ring.len() >= 3);
+    let rings = MultiPolygon(rings.map(|ring| polygon_through(std::slice::from_ref(ring))).collect());
+    let mut region =
+        rings.boolean_op_with_fill_rule(&MultiPolygon(Vec::new()), OpType::Union, FillRule::EvenOdd);
+    region.0.retain(|polygon| polygon.unsigned_area() >= least_area);
+    region
+}
+
 /// All points of the region farther than `distance` from its boundary, up to `chord_error`: joins
 /// round concave corners are arcs of chords.
 pub(crate) fn inset(

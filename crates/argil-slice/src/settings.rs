@@ -4,7 +4,7 @@ use crate::SliceError;
 pub(crate) const MOST_LAYERS: usize = 100_000;
 
 /// Lengths beyond a kilometre are a mistake, and the polygon kernel cannot grow a region by much more.
-const LONGEST: f64 = 1e6;
+pub(crate) const LONGEST: f64 = 1e6;
 
 /// How a mesh is cut and its walls are laid.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,13 +22,17 @@ pub struct SliceSettings {
     /// are written. Loops are checked after rounding to it.
     pub grid: f64,
     /// The widest gap in a cut, in bead widths, that is closed with a straight line, 0.5 by
-    /// default: a bead covers that. Wider gaps are reported; a larger value guesses more.
+    /// default: a bead covers that, so that any two ends may be joined.
     pub gap: f64,
+    /// The widest gap in a cut, in bead widths, that is closed where there is little to guess: the pieces of outline on both
+    /// sides are together at least twice as long as the gap. 10 by default; wider gaps are reported, a larger value guesses more.
+    /// Gaps that lie inside the solid are closed at any width.
+    pub hole: f64,
 }
 
 impl Default for SliceSettings {
     fn default() -> Self {
-        Self { layer_height: 0.5, width: 1.5, walls: 1, grid: 1e-4, gap: 0.5 }
+        Self { layer_height: 0.5, width: 1.5, walls: 1, grid: 1e-4, gap: 0.5, hole: 10.0 }
     }
 }
 
@@ -41,8 +45,10 @@ impl SliceSettings {
                 return Err(SliceError::Setting { setting, value });
             }
         }
-        if !(0.0..=LONGEST).contains(&self.gap) {
-            return Err(SliceError::Setting { setting: "gap", value: self.gap });
+        for (setting, value) in [("gap", self.gap), ("hole", self.hole)] {
+            if !(0.0..=LONGEST).contains(&value) {
+                return Err(SliceError::Setting { setting, value });
+            }
         }
         if self.walls == 0 {
             return Err(SliceError::NoWalls);

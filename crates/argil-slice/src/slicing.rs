@@ -1,11 +1,14 @@
-use crate::chain::{Linker, OpenChain, close_gaps};
+use crate::chain::{Linker, OpenChain};
+use crate::gaps::{Closing, close_gaps, runs_inside};
 use crate::layer::{Layer, Loss};
-use crate::region::wound_region;
+use crate::region::{perimeter, signed_area, wound_region};
 use crate::section::Sweep;
 use crate::settings::MOST_LAYERS;
 use crate::wall::{Walls, walls};
 use crate::{SliceError, SliceSettings};
 use argil_mesh::Mesh;
+use geo::{Distance, Euclidean};
+use geo_types::{Coord, MultiPolygon, Point};
 use glam::DVec2;
 #[cfg(feature = "rayon")]
 use rayon::prelude::*;
@@ -13,18 +16,23 @@ use rayon::prelude::*;
 /// Outlines smaller than this, in square millimetres, are rounding errors of the cut.
 const LEAST_AREA: f64 = 1e-6;
 
+/// Thickness, in w, below which a closed contour is a sheet: the mesh has two sides there and nothing in between.
+const SHEET: f64 = 3e-4;
+
+/// Open pieces of a cut up to this length, in w, bound nothing that a bead could show.
+const SPECK: f64 = 0.05;
+
 /// Cuts a mesh into layers and lays the wall paths into each outline. The paper
 /// takes both as given.
 ///
 /// Layer n is cut at the height (n + ½) h above the lowest point of the mesh and printed at
 /// (n + 1) h. Layers are returned bottom first, also empty ones in
-/// the middle, where the model vanishes for a while. Neighbouring triangles that are wound against each
-/// other are turned over first.
+/// the middle, where the model vanishes for a while. The mesh is [oriented](Mesh::oriented) first.
 ///
 /// # Errors
 /// [`SliceError`] for settings that are no lengths, for a mesh that does not reach the middle of the first
 /// layer, for more than 100,000 layers, and for a mesh too wide for its output grid. Flaws of
-/// the mesh are no errors: they are in [`Layer::losses`].
+/// the mesh are no errors: they are in [`Layer::losses`], also the gaps that were closed.
 ///
 /// # Complexity
 /// O(triangles + crossings of planes with triangles) for the cuts; the polygon operations on each layer
@@ -80,18 +88,67 @@ impl UnclosedSection {
     /// The layer with its walls; this is most of the work, and that of one layer is none of another's.
     fn layer(mut self, settings: &SliceSettings) -> Layer {
         let index = self.index;
-        self.contours.append(&mut close_gaps(&mut self.open, settings.gap * settings.width));
-        let unclosed = |chain: &OpenChain| {
-            let at = *chain.points.last()?;
-            Some(Loss::OpenOutline { layer: index, at, length: chain.length(), gap: chain.gap() })
-        };
-        let mut losses: Vec<Loss> = self.open.iter().filter_map(unclosed).collect();
+        let width = settings.width;
+        let mut losses = Vec::new();
+        if !self.open.is_empty() {
+            self.close(settings, &mut losses);
+        }
+        let sheets: Vec<Vec<DVec2>> =
+            self.contours.iter().filter(|contour| is_sheet(contour, width)).cloned().collect();
         let outline = wound_region(self.contours, LEAST_AREA);
+        for chain in &self.open {
+            let Some(&at) = chain.points.last() else { continue };
+            let length = chain.length();
+            let is_stray = length <= SPECK * width || runs_inside(chain, &outline);
+            losses.push(match is_stray {
+                true => Loss::Stray { layer: index, at, length },
+                false => Loss::OpenOutline { layer: index, at, length, gap: chain.gap() },
+            });
+        }
+        let bare = sheets.iter().filter_map(|sheet| sheet.iter().find(|p| is_outside(**p, &outline, width)));
+        losses.extend(bare.map(|&at| Loss::Vanished { layer: index, at, area: 0.0 }));
         let mut inset = walls(index, &outline, settings);
         losses.append(&mut inset.losses);
         let Walls { walled, walls, .. } = inset;
         Layer { index, cut_z: self.cut_z, print_z: self.print_z, outline, walled, walls, losses }
     }
+
+    /// Closes contours across gaps: narrow ones first, then wider ones, where that leaves little to guess.
+    fn close(&mut self, settings: &SliceSettings, losses: &mut Vec<Loss>) {
+        let sure = settings.gap * settings.width;
+        let nothing = MultiPolygon(Vec::new());
+        let narrow = Closing { limit: sure, sure, solid: &nothing };
+        let mut closed = close_gaps(&mut self.open, &narrow);
+        self.contours.append(&mut closed.contours);
+        let mut gaps = closed.gaps;
+        let limit = settings.hole * settings.width;
+        if !self.open.is_empty() && limit > sure {
+            let solid = wound_region(self.contours.clone(), LEAST_AREA);
+            self.open.retain(|chain| match chain.points.last() {
+                Some(&at) if runs_inside(chain, &solid) => {
+                    losses.push(Loss::Stray { layer: self.index, at, length: chain.length() });
+                    false
+                }
+                _ => true,
+            });
+            let mut closed = close_gaps(&mut self.open, &Closing { limit, sure, solid: &solid });
+            self.contours.append(&mut closed.contours);
+            gaps.append(&mut closed.gaps);
+        }
+        let seen = gaps.into_iter().filter(|&(_, gap)| gap > settings.grid);
+        losses.extend(seen.map(|(at, gap)| Loss::ClosedGap { layer: self.index, at, gap }));
+    }
+}
+
+/// Whether a closed contour encloses next to nothing along a length that would show.
+fn is_sheet(contour: &[DVec2], width: f64) -> bool {
+    let length = perimeter(contour);
+    length > width && signed_area(contour).abs() <= 0.5 * SHEET * width * length
+}
+
+/// Whether a point lies off the region and not on its boundary either.
+fn is_outside(p: DVec2, region: &MultiPolygon<f64>, width: f64) -> bool {
+    Euclidean.distance(&Point(Coord { x: p.x, y: p.y }), region) > SHEET * width
 }
 
 fn layer_count(height: f64, layer_height: f64) -> Result<usize, SliceError> {

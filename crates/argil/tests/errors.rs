@@ -6,7 +6,8 @@ mod verdict;
 
 use argil::curve::DVec2;
 use argil::mesh::Mesh;
-use argil::slice::{Layer, SliceError, WallLoop};
+use argil::slice::{Layer, Loss, SliceError, WallLoop};
+use argil::strand::Role;
 use argil::{Material, PlanError, Planner, Settings};
 use geo_types::{Coord, LineString, MultiPolygon, Polygon};
 use invariants::departures;
@@ -266,9 +267,24 @@ fn walls_side_by_side() {
 }
 
 #[test]
-fn a_mesh_with_a_hole_is_planned_without_what_is_open() {
+fn a_mesh_with_a_hole_is_planned_as_if_it_were_whole() {
     let whole = block(9.0, 9.0, 3.0);
     let torn = Mesh::new(whole.vertices().to_vec(), whole.triangles()[..10].to_vec()).expect("a mesh");
-    let outcome = Planner::default().plan(&torn, &Settings::default());
+    let plan = |mesh: &Mesh| Planner::default().plan(mesh, &Settings::default()).expect("a plan");
+    let (torn, whole) = (plan(&torn), plan(&whole));
+    assert_eq!(torn.losses.len(), torn.strand.layers().len());
+    assert!(
+        torn.losses
+            .iter()
+            .all(|loss| matches!(loss, Loss::ClosedGap { gap, .. } if (gap - 9.0).abs() < 1e-9))
+    );
+    assert!((torn.strand.length_of(Role::Wall) - whole.strand.length_of(Role::Wall)).abs() < 1e-6);
+}
+
+#[test]
+fn a_mesh_of_which_all_is_open_has_no_plan() {
+    let whole = block(9.0, 9.0, 3.0);
+    let sheet = Mesh::new(whole.vertices().to_vec(), whole.triangles()[4..6].to_vec()).expect("a mesh");
+    let outcome = Planner::default().plan(&sheet, &Settings::default());
     assert!(matches!(outcome, Err(PlanError::Nothing)), "{outcome:?}");
 }
