@@ -7,6 +7,7 @@ use argil_route::{
     TourOptions, Tours, Wall,
 };
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 
 /// What is made of argil's own order.
 struct Altered<F>(F);
@@ -40,7 +41,7 @@ const POINTS: [(f64, f64); 6] =
     [(16.0, 4.0), (22.0, 12.0), (37.0, 7.0), (25.0, 30.0), (4.0, 18.0), (37.0, 22.0)];
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 24, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 24, rng_seed: RngSeed::Fixed(1), failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn any_order_gives_a_sound_cycle(keys in prop::collection::vec(any::<u16>(), 24)) {

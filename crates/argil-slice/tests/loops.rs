@@ -3,6 +3,7 @@
 use argil_curve::DVec2;
 use argil_slice::Layer;
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 
 const GRID: f64 = 1e-4;
 
@@ -16,6 +17,8 @@ fn turns_left(points: &[DVec2]) -> bool {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(1), failure_persistence: None, ..ProptestConfig::default() })]
+
     /// Stacks of squares side by side, in any order and turned any way, are put together as they were made.
     #[test]
     fn nesting_is_found_again(
