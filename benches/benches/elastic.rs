@@ -1,10 +1,18 @@
-//! Relaxation of a wall with excursions, by the number of free vertices.
+//! Relaxation of a wall with excursions, by the number of free vertices, and what a sparse library takes to factorise
+//! twenty matrices like those of its steps.
 
 use std::hint::black_box;
 
 use argil_benches::{DVec2, Excursions, WIDTH};
 use argil_elastic::{Carrier, Clearance, ElasticOptions, ElasticSolver, Path};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::sparse::linalg::SupernodalThreshold;
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, SymmetricOrdering, factorize_symbolic_cholesky,
+};
+use faer::sparse::{SparseColMat, Triplet};
+use faer::{Par, Side};
 
 #[derive(Debug)]
 struct Disc(f64);
@@ -42,5 +50,54 @@ fn elastic(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, elastic);
+/// Matrices of two unknowns a vertex, each coupled with all of the two vertices before it.
+fn twenty_factorisations(c: &mut Criterion) {
+    let mut group = c.benchmark_group("elastic");
+    group.sample_size(20);
+    for free in [196_usize, 784, 3136] {
+        let entry = |row: usize, column: usize| if row == column { 20.0 } else { -1.0 };
+        let upper = (0..2 * free).flat_map(|column| {
+            let first = (2 * (column / 2)).saturating_sub(4);
+            (first..=column).map(move |row| Triplet::new(row, column, entry(row, column)))
+        });
+        let matrix =
+            SparseColMat::<usize, f64>::try_new_from_triplets(2 * free, 2 * free, &upper.collect::<Vec<_>>())
+                .expect("the entries are within the matrix");
+        let parameters = CholeskySymbolicParams {
+            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SIMPLICIAL,
+            ..Default::default()
+        };
+        let symbolic = factorize_symbolic_cholesky(
+            matrix.symbolic(),
+            Side::Upper,
+            SymmetricOrdering::Identity,
+            parameters,
+        )
+        .expect("there is memory for a few thousand unknowns");
+        let mut factor = vec![0.0; symbolic.len_val()];
+        let mut memory =
+            MemBuffer::new(symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default()));
+        group.bench_function(BenchmarkId::new("faer, 20 factorisations", free), |b| {
+            b.iter(|| {
+                for _ in 0..20 {
+                    let stack = MemStack::new(&mut memory);
+                    let (matrix, settings) = (black_box(matrix.as_ref()), Default::default());
+                    let done = symbolic.factorize_numeric_llt(
+                        &mut factor,
+                        matrix,
+                        Side::Upper,
+                        settings,
+                        Par::Seq,
+                        stack,
+                        Default::default(),
+                    );
+                    done.expect("the diagonal outweighs the rest of each row");
+                }
+            });
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, elastic, twenty_factorisations);
 criterion_main!(benches);

@@ -2,13 +2,15 @@
 
 use argil_curve::DVec2;
 use argil_graph::{GraphError, PathGraph};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
+
+use crate::MixedLayer;
 
 /// How far from its place in the layer above a terminal may lie, mm: `ε_across` of the paper's clay, and the grid.
 const SAME: f64 = 0.46;
 
 /// A layer as its JSON has it. Distances in it are whole numbers, so that all solvers must agree to the unit.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct Instance {
     /// What it is called.
     #[serde(default)]
@@ -28,6 +30,24 @@ impl Instance {
     /// What serde says of a text that is no layer.
     pub fn from_json(text: &str) -> Result<Self, serde_json::Error> {
         serde_json::from_str(text)
+    }
+
+    /// A layer made from a seed, with lengths rounded to whole micrometres.
+    ///
+    /// # Errors
+    /// As for [`MixedLayer::graph`].
+    pub fn made(terminals: usize, seed: u64) -> Result<Self, GraphError> {
+        let graph = MixedLayer::new(terminals, seed).graph()?;
+        Ok(Self {
+            name: format!("mixed_{terminals}"),
+            vertices: graph.positions().iter().map(|&p| p.into()).collect(),
+            edges: graph
+                .edges()
+                .filter(|&(a, b, _)| !graph.is_attachment(a) && !graph.is_attachment(b))
+                .map(|(a, b, length)| (a, b, (1e3 * length).round()))
+                .collect(),
+            terminals: (0..terminals).map(|k| graph.terminal(k)).collect(),
+        })
     }
 
     /// Its graph.

@@ -32,6 +32,8 @@ pub struct MixedLayer {
     pub obstacles: Vec<Vec<DVec2>>,
     /// The support points, which lie clear of the obstacles.
     pub terminals: Vec<DVec2>,
+    /// How far apart the Steiner points of the graph are, mm; six by default, which gives some five vertices a support point.
+    pub spacing: f64,
 }
 
 impl MixedLayer {
@@ -40,7 +42,7 @@ impl MixedLayer {
     pub fn new(terminals: usize, seed: u64) -> Self {
         let mut random = SplitMix::new(seed);
         let side = 12.0 * (terminals.max(4) as f64).sqrt();
-        let mut layer = Self { side, obstacles: Vec::new(), terminals: Vec::new() };
+        let mut layer = Self { side, obstacles: Vec::new(), terminals: Vec::new(), spacing: 4.0 * WIDTH };
         layer.add_obstacles((terminals / 40).clamp(1, 20), &mut random);
         let walls = layer.walls();
         while layer.terminals.len() < terminals / 2 {
@@ -83,7 +85,7 @@ impl MixedLayer {
         let s = self.side;
         let plate = [(0.0, 0.0), (s, 0.0), (s, s), (0.0, s)].map(DVec2::from);
         let attachments: Vec<DVec2> = self.obstacles.iter().map(|obstacle| obstacle[0]).collect();
-        let count = (s / (4.0 * WIDTH)) as usize;
+        let count = ((s / self.spacing) as usize).max(1);
         let node = |k: usize| (DVec2::new((k % count) as f64, (k / count) as f64) + 0.5) * s / count as f64;
         let steiner: Vec<DVec2> = (0..count * count).map(node).collect();
         let space =

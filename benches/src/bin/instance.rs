@@ -2,12 +2,16 @@
 //!
 //! ```text
 //! instance LAYER.json [--warm PREVIOUS.json] [--kicks PER_NODE | --budget-ms MS]
-//!          [--seed N] [--seeds N] [--rounds N] [--best UM] [--compare]
+//!          [--seed N] [--seeds N] [--rounds N] [--best UM] [--matrix-mb MB] [--compare]
+//! instance --make T [--seed N]
 //! ```
+//!
+//! The second prints such a file of T support points, made from the seed.
 //!
 //! Times are the least of some rounds, in milliseconds of one thread. `--warm` starts from the tour of another layer,
 //! whose own search is not timed. `--kicks` is the search's budget a node; `--budget-ms` chooses it so that candidates
 //! and tour take about that long here. `--seeds` repeats the tour with that many seeds and adds mean and longest.
+//! `--matrix-mb` is the largest matrix of distances, 256 MB by default; beyond it they are made on demand.
 //! `--best` adds the excess over a known length; `--compare` measures petgraph's Dijkstra and one with a plain heap beside it.
 
 use std::error::Error;
@@ -18,7 +22,7 @@ use std::time::Instant;
 use std::{env, fs, io};
 
 use argil_benches::{Instance, by_heap, by_petgraph, petgraph_of};
-use argil_graph::{DistanceMatrix, PathGraph};
+use argil_graph::{Distances, PathGraph};
 use argil_tour::{Metric, Tour, TourOptions, TourSolver};
 use serde_json::{Map, Value, json};
 
@@ -42,6 +46,7 @@ fn main() -> ExitCode {
 /// What the command line asks for.
 struct Arguments {
     layer: String,
+    make: Option<usize>,
     warm: Option<String>,
     kicks: Option<f64>,
     budget_ms: Option<f64>,
@@ -49,6 +54,7 @@ struct Arguments {
     seeds: u64,
     rounds: usize,
     best: Option<f64>,
+    most_bytes: usize,
     compare: bool,
 }
 
@@ -56,6 +62,7 @@ impl Arguments {
     fn read(mut words: impl Iterator<Item = String>) -> Result<Self, Box<dyn Error>> {
         let mut read = Self {
             layer: String::new(),
+            make: None,
             warm: None,
             kicks: None,
             budget_ms: None,
@@ -63,11 +70,13 @@ impl Arguments {
             seeds: 1,
             rounds: 5,
             best: None,
+            most_bytes: PathGraph::MOST_MATRIX_BYTES,
             compare: false,
         };
         while let Some(word) = words.next() {
             let mut value = || words.next().ok_or_else(|| format!("{word} wants a value"));
             match word.as_str() {
+                "--make" => read.make = Some(value()?.parse()?),
                 "--warm" => read.warm = Some(value()?),
                 "--kicks" => read.kicks = Some(value()?.parse()?),
                 "--budget-ms" => read.budget_ms = Some(value()?.parse()?),
@@ -75,12 +84,13 @@ impl Arguments {
                 "--seeds" => read.seeds = value()?.parse::<u64>()?.max(1),
                 "--rounds" => read.rounds = value()?.parse::<usize>()?.max(1),
                 "--best" => read.best = Some(value()?.parse()?),
+                "--matrix-mb" => read.most_bytes = value()?.parse::<usize>()?.saturating_mul(1_000_000),
                 "--compare" => read.compare = true,
                 layer if read.layer.is_empty() && !layer.starts_with("--") => read.layer = word,
                 other => return Err(format!("{other} is not understood").into()),
             }
         }
-        if read.layer.is_empty() {
+        if read.layer.is_empty() && read.make.is_none() {
             return Err("which layer? Give the path of its JSON".into());
         }
         Ok(read)
@@ -93,7 +103,7 @@ impl Arguments {
 }
 
 /// The distances as the search asks for them.
-struct Lengths<'a>(&'a DistanceMatrix);
+struct Lengths<'a>(&'a Distances<'a>);
 
 impl Metric for Lengths<'_> {
     fn nodes(&self) -> usize {
@@ -120,8 +130,8 @@ fn timed<T>(rounds: usize, mut work: impl FnMut() -> T) -> (f64, Option<T>) {
 
 /// Candidates and tour with no thought of time.
 fn tour_of(graph: &PathGraph, among: &[u32], start: Option<&[usize]>, options: &TourOptions) -> Tour {
-    let matrix = graph.distances(among);
-    TourSolver::new().solve(&Lengths(&matrix), &graph.nearby(among, NEAREST), start, options)
+    let distances = graph.distances_within(among, PathGraph::MOST_MATRIX_BYTES);
+    TourSolver::new().solve(&Lengths(&distances), &graph.nearby(among, NEAREST), start, options)
 }
 
 /// The kicks a node with which `work` takes about `budget_ms`.
@@ -141,6 +151,11 @@ fn within(budget_ms: f64, mut work: impl FnMut(f64) -> f64) -> f64 {
 
 fn run() -> Result<(), Box<dyn Error>> {
     let arguments = Arguments::read(env::args().skip(1))?;
+    if let Some(terminals) = arguments.make {
+        let made = Instance::made(terminals, arguments.seed)?;
+        writeln!(io::stdout(), "{}", serde_json::to_string(&made)?)?;
+        return Ok(());
+    }
     let read = |path: &String| -> Result<Instance, Box<dyn Error>> {
         let text = fs::read_to_string(path).map_err(|error| format!("{path}: {error}"))?;
         Instance::from_json(&text).map_err(|error| format!("{path}: {error}").into())
@@ -159,24 +174,26 @@ fn run() -> Result<(), Box<dyn Error>> {
     let rounds = arguments.rounds;
     let mut order_ms = f64::INFINITY;
     let mut again = named.clone();
-    let (both_ms, matrix) = timed(rounds, || {
+    let (both_ms, _) = timed(rounds, || {
         // A graph keeps its order, so that every round has a graph of its own; copying it is not timed.
         let fresh = unordered.clone();
         let start = Instant::now();
         fresh.arrange(&mut again);
         let ordered = start.elapsed().as_secs_f64() * 1e3;
         order_ms = order_ms.min(ordered);
-        fresh.distances(among)
+        black_box(fresh.distances_within(among, arguments.most_bytes));
     });
-    let (distances_ms, _) = timed(rounds, || graph.distances(among));
-    let matrix = matrix.ok_or("no round was run")?;
-    let sum: f64 = (0..among.len()).map(|k| matrix.row(k).iter().sum::<f64>()).sum();
+    let (distances_ms, distances) = timed(rounds, || graph.distances_within(among, arguments.most_bytes));
+    let distances = distances.ok_or("no round was run")?;
+    let row_sum = |k: usize| (0..among.len()).map(|j| distances.get(k, j)).sum::<f64>();
+    let sum: f64 = (0..among.len()).map(row_sum).sum();
+    found.insert("on_demand".into(), json!(matches!(distances, Distances::OnDemand(_))));
     found.insert("order_ms".into(), json!(order_ms));
     found.insert("distances_ms".into(), json!(distances_ms));
     found.insert("order_and_distances_ms".into(), json!(both_ms));
     found.insert("distances_sum_um".into(), json!(sum));
     if arguments.compare {
-        compare(&graph, among, &matrix, order_ms + distances_ms, &mut found);
+        compare(&graph, among, &distances, order_ms + distances_ms, &mut found);
     }
 
     let warm = match &arguments.warm {
@@ -194,7 +211,7 @@ fn run() -> Result<(), Box<dyn Error>> {
     let start = start.flatten();
     let (candidates_ms, candidates) = timed(rounds, || graph.nearby(among, NEAREST));
     let candidates = candidates.unwrap_or_default();
-    let metric = Lengths(&matrix);
+    let metric = Lengths(&distances);
     let mut solver = TourSolver::new();
     let mut options = arguments.options();
     if let Some(budget) = arguments.budget_ms {
@@ -236,7 +253,7 @@ fn run() -> Result<(), Box<dyn Error>> {
 fn compare(
     graph: &PathGraph,
     among: &[u32],
-    matrix: &DistanceMatrix,
+    distances: &Distances<'_>,
     ours: f64,
     found: &mut Map<String, Value>,
 ) {
@@ -245,7 +262,8 @@ fn compare(
     let (heap_ms, by_heap) = timed(1, || by_heap(graph, among));
     let same = |others: Option<Vec<f64>>| {
         others.is_some_and(|others| {
-            (0..among.len()).flat_map(|k| matrix.row(k)).zip(&others).all(|(a, b)| a.to_bits() == b.to_bits())
+            let ours = (0..among.len()).flat_map(|i| (0..among.len()).map(move |j| distances.get(i, j)));
+            ours.zip(&others).all(|(a, b)| a.to_bits() == b.to_bits())
         })
     };
     found.insert("petgraph_ms".into(), json!(petgraph_ms));

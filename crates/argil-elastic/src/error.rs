@@ -58,10 +58,4 @@ pub enum ElasticError {
         /// What would be accepted.
         expected: &'static str,
     },
-    /// The linear solver could not analyse the system, for want of memory.
-    #[error("the system of {unknowns} unknowns could not be set up")]
-    SystemTooLarge {
-        /// Two for every free vertex.
-        unknowns: usize,
-    },
 }

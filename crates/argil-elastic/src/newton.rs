@@ -53,6 +53,7 @@ pub struct ElasticSolver {
     current: State,
     trial: State,
     memory: Steps,
+    system: NormalSystem,
     tethers: Vec<Tether>,
     felt: Vec<u32>,
 }
@@ -103,9 +104,9 @@ impl ElasticSolver {
         self.trial.start(path.points, options.width);
         self.neighbours.forget();
         self.memory.start(&self.rod);
-        let mut system = NormalSystem::new(&self.rod)?;
+        self.system.start(&self.rod);
 
-        let Self { rod, neighbours, current, trial, memory, tethers, felt } = self;
+        let Self { rod, neighbours, current, trial, memory, system, tethers, felt } = self;
         let guard = Guard { rod, candidate: path.points, touch: options.touch * options.width };
         let guard = (reading == Reading::Mended).then_some(guard);
         let objective = Objective {
@@ -119,7 +120,7 @@ impl ElasticSolver {
         let reach = Reach { touch: guard.map(|_| options.touch), ..objective.repulsion_reach() };
         let task = Task { objective, guard, reach, options };
         let mut descent = Descent { task, neighbours, current, trial, memory };
-        let (energy_before, iterations, stop) = descent.run(&mut system);
+        let (energy_before, iterations, stop) = descent.run(system);
         Ok(Relaxed {
             points: self.current.points.clone(),
             energy_before,

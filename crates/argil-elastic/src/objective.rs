@@ -194,7 +194,6 @@ impl Objective<'_> {
         for contact in &state.contacts {
             self.assemble_contact(contact, system);
         }
-        system.close();
     }
 
     /// Adds one contact: the force on all three vertices, curvature on their own blocks only.

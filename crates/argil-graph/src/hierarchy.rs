@@ -9,15 +9,7 @@
 //! Attachments come first and leave no shortcuts: a shortcut is a path through, which they forbid.
 
 use crate::PathGraph;
-
-/// An edge or shortcut to a vertex that is eliminated later.
-#[derive(Clone, Copy, Debug)]
-struct Link {
-    to: u32,
-    /// The eliminated vertex that a shortcut leads through, or [`Hierarchy::NO_MIDDLE`] for an edge.
-    middle: u32,
-    weight: f64,
-}
+use crate::elimination::{eliminate, in_postorder};
 
 /// The graph with its shortcuts. Vertices go by their *rank*, their place in the order of elimination.
 #[derive(Clone, Debug)]
@@ -43,8 +35,8 @@ impl Hierarchy {
     /// O(Σ d²) for the degrees d at elimination: O(V √V) or better on plane graphs of even density.
     pub(crate) fn new(graph: &PathGraph) -> Hierarchy {
         let count = graph.vertex_count();
-        let (order, links) = eliminate(graph);
-        let order = in_postorder(&order, &links);
+        let (eliminated, links) = eliminate(graph);
+        let order = in_postorder(&eliminated, &links);
 
         let mut rank_of = vec![0; count];
         let mut vertex_of: Vec<u32> = (0..count as u32).filter(|&v| graph.is_attachment(v)).collect();
@@ -64,46 +56,93 @@ impl Hierarchy {
         }
         vertex_of.extend(&order);
 
-        let total = order.iter().map(|&v| links.len(v)).sum::<usize>() + graph.edge_count();
+        let total = order.iter().map(|&v| links.len(v)).sum::<usize>();
         let mut offsets = Vec::with_capacity(count + 1);
         offsets.push(0);
-        let mut hierarchy = Hierarchy {
-            rank_of,
-            vertex_of,
-            attachment_count,
-            offsets,
-            to: Vec::with_capacity(total),
-            weights: Vec::with_capacity(total),
-            middles: Vec::with_capacity(total),
-        };
-        let mut own = Vec::new();
-        for rank in 0..attachment_count {
-            let vertex = hierarchy.vertex_of[rank];
-            let open = graph.neighbours(vertex).filter(|&(u, _)| !graph.is_attachment(u));
-            own.clear();
-            own.extend(open.map(|(to, weight)| Link { to, middle: Self::NO_MIDDLE, weight }));
-            hierarchy.push(&mut own);
+        let mut to: Vec<u32> = Vec::with_capacity(total);
+        let mut weights = Vec::new();
+        for &vertex in &vertex_of[..attachment_count] {
+            let mut open: Vec<(u32, f64)> =
+                graph.neighbours(vertex).filter(|&(u, _)| !graph.is_attachment(u)).collect();
+            open.iter_mut().for_each(|(u, _)| *u = rank_of[*u as usize]);
+            open.sort_unstable_by_key(|link| link.0);
+            to.extend(open.iter().map(|link| link.0));
+            weights.extend(open.iter().map(|link| link.1));
+            offsets.push(to.len() as u32);
         }
-        for v in order {
-            own.clear();
-            own.extend_from_slice(links.of(v));
-            hierarchy.push(&mut own);
+        for &v in &order {
+            let start = to.len();
+            to.extend(links.of(v).iter().map(|&u| rank_of[u as usize]));
+            to[start..].sort_unstable();
+            offsets.push(to.len() as u32);
         }
+        drop(links);
+        weights.resize(to.len(), f64::INFINITY);
+        let middles = vec![Self::NO_MIDDLE; to.len()];
+        let mut hierarchy = Hierarchy { rank_of, vertex_of, attachment_count, offsets, to, weights, middles };
+        hierarchy.weigh(graph, &eliminated);
         hierarchy
     }
 
-    fn push(&mut self, links: &mut [Link]) {
-        for link in &mut *links {
-            link.to = self.rank_of[link.to as usize];
-            if link.middle != Self::NO_MIDDLE {
-                link.middle = self.rank_of[link.middle as usize];
+    /// Gives every link of the eliminated vertices its weight, rank by rank: that of the edge, if there is one, or the least
+    /// of the ways through what was eliminated before. Of equal ones the edge counts, or what was eliminated first.
+    ///
+    /// Every rank takes from all that link to it, which it finds in a list of its own: once it is done, each of them goes
+    /// on to the list of the next rank that it links to.
+    fn weigh(&mut self, graph: &PathGraph, eliminated: &[u32]) {
+        let count = self.len();
+        let mut turn = vec![0_u32; count];
+        for (&v, place) in eliminated.iter().zip(0..) {
+            turn[self.rank_of[v as usize] as usize] = place;
+        }
+        // Per rank the first that links to it and is waiting there; per waiting rank the next one, and which link it is at.
+        let mut first = vec![Self::NO_MIDDLE; count];
+        let mut next = vec![Self::NO_MIDDLE; count];
+        let mut at = vec![0_u32; count];
+        // Where among the links of the rank under work the link to another one is.
+        let mut slot = vec![0_u32; count];
+        for rank in self.attachment_count..count {
+            let (start, end) = (self.offsets[rank] as usize, self.offsets[rank + 1] as usize);
+            for (&to, place) in self.to[start..end].iter().zip(0..) {
+                slot[to as usize] = place;
+            }
+            let (done, own) = self.weights.split_at_mut(start);
+            let middles = &mut self.middles[start..];
+            for (u, weight) in graph.neighbours(self.vertex_of[rank]) {
+                let to = self.rank_of[u as usize];
+                if to as usize > rank {
+                    own[slot[to as usize] as usize] = weight;
+                }
+            }
+            let mut waiting = std::mem::replace(&mut first[rank], Self::NO_MIDDLE);
+            while waiting != Self::NO_MIDDLE {
+                let below = waiting;
+                waiting = next[below as usize];
+                let here = at[below as usize] as usize;
+                let last = self.offsets[below as usize + 1] as usize;
+                let up = done[here];
+                for (&to, &on) in self.to[here + 1..last].iter().zip(&done[here + 1..last]) {
+                    let through = up + on;
+                    let place = slot[to as usize] as usize;
+                    let (least, middle) = (&mut own[place], &mut middles[place]);
+                    let sooner =
+                        || *middle != Self::NO_MIDDLE && turn[below as usize] < turn[*middle as usize];
+                    if through < *least || (through == *least && sooner()) {
+                        (*least, *middle) = (through, below);
+                    }
+                }
+                if here + 1 < last {
+                    at[below as usize] += 1;
+                    let to = self.to[here + 1] as usize;
+                    next[below as usize] = std::mem::replace(&mut first[to], below);
+                }
+            }
+            if start < end {
+                at[rank] = start as u32;
+                let to = self.to[start] as usize;
+                next[rank] = std::mem::replace(&mut first[to], rank as u32);
             }
         }
-        links.sort_unstable_by_key(|link| link.to);
-        self.to.extend(links.iter().map(|link| link.to));
-        self.weights.extend(links.iter().map(|link| link.weight));
-        self.middles.extend(links.iter().map(|link| link.middle));
-        self.offsets.push(self.to.len() as u32);
     }
 
     /// The rank of a vertex, if it exists.
@@ -128,6 +167,22 @@ impl Hierarchy {
         (&self.to[slots.clone()], &self.weights[slots])
     }
 
+    /// Whether the vertex of a rank is an attachment.
+    pub(crate) fn is_attachment(&self, rank: u32) -> bool {
+        (rank as usize) < self.attachment_count
+    }
+
+    /// The lowest rank that links lead to, if any do.
+    #[inline]
+    pub(crate) fn parent(&self, rank: u32) -> Option<u32> {
+        self.links(rank).0.first().copied()
+    }
+
+    /// The rank, which is no attachment's, and all above it, ascending.
+    pub(crate) fn ancestors(&self, rank: u32) -> impl Iterator<Item = u32> + '_ {
+        std::iter::successors(Some(rank), |&rank| self.parent(rank))
+    }
+
     /// What the link between two ranks leads through; none if it is an edge.
     pub(crate) fn middle(&self, a: u32, b: u32) -> Option<u32> {
         let (low, high) = (a.min(b), a.max(b));
@@ -146,13 +201,13 @@ impl Hierarchy {
     pub(crate) fn climb(&self, rank: u32, mut visit: impl FnMut(u32) -> bool) {
         let mut follow = |mut rank: u32| {
             while visit(rank) {
-                match self.links(rank).0.first() {
-                    Some(&next) => rank = next,
+                match self.parent(rank) {
+                    Some(next) => rank = next,
                     None => break,
                 }
             }
         };
-        if (rank as usize) < self.attachment_count {
+        if self.is_attachment(rank) {
             for &next in self.links(rank).0 {
                 follow(next);
             }
@@ -161,170 +216,4 @@ impl Hierarchy {
             follow(rank);
         }
     }
-}
-
-/// The links of all vertices one after the other. A list that outgrows its room moves to the end, so that
-/// nothing is allocated for a single vertex.
-#[derive(Clone, Debug, Default)]
-struct LinkLists {
-    links: Vec<Link>,
-    /// Start, length and room of each list.
-    spans: Vec<(u32, u32, u32)>,
-}
-
-impl LinkLists {
-    fn of(&self, v: u32) -> &[Link] {
-        let (start, length, _) = self.spans[v as usize];
-        &self.links[start as usize..(start + length) as usize]
-    }
-
-    fn len(&self, v: u32) -> usize {
-        self.spans[v as usize].1 as usize
-    }
-
-    fn of_mut(&mut self, v: u32) -> &mut [Link] {
-        let (start, length, _) = self.spans[v as usize];
-        &mut self.links[start as usize..(start + length) as usize]
-    }
-
-    /// Adds the list of the next vertex.
-    fn append(&mut self, links: impl Iterator<Item = Link>) {
-        let start = self.links.len() as u32;
-        self.links.extend(links);
-        let length = self.links.len() as u32 - start;
-        self.spans.push((start, length, length));
-    }
-
-    fn push(&mut self, v: u32, link: Link) {
-        let (start, length, room) = self.spans[v as usize];
-        let place = if length < room {
-            start
-        } else {
-            let moved = self.links.len();
-            self.links.extend_from_within(start as usize..(start + length) as usize);
-            let room = (2 * room).max(8);
-            self.links.resize(moved + room as usize, link);
-            self.spans[v as usize] = (moved as u32, length, room);
-            moved as u32
-        };
-        self.links[(place + length) as usize] = link;
-        self.spans[v as usize].1 += 1;
-    }
-
-    /// Takes the link to `to` out of the list of `v` and leaves the others in their order.
-    fn remove(&mut self, v: u32, to: u32) {
-        let list = self.of_mut(v);
-        if let Some(place) = list.iter().position(|link| link.to == to) {
-            list.copy_within(place + 1.., place);
-            self.spans[v as usize].1 -= 1;
-        }
-    }
-}
-
-/// The vertices that are no attachments in the order of their elimination, and the links that each then has.
-fn eliminate(graph: &PathGraph) -> (Vec<u32>, LinkLists) {
-    let count = graph.vertex_count();
-    let open = |&(u, _): &(u32, f64)| !graph.is_attachment(u);
-    let edge = |(to, weight)| Link { to, middle: Hierarchy::NO_MIDDLE, weight };
-    let mut remaining = LinkLists {
-        links: Vec::with_capacity(6 * graph.edge_count() + 16),
-        spans: Vec::with_capacity(count),
-    };
-    for v in 0..count as u32 {
-        let own = if graph.is_attachment(v) { PathGraph::NO_VERTEX } else { v };
-        remaining.append(graph.neighbours(own).filter(open).map(edge));
-    }
-
-    // The vertices by degree. An entry is stale once its vertex is gone or has another degree.
-    let mut queues: Vec<Vec<u32>> = Vec::new();
-    let enqueue = |queues: &mut Vec<Vec<u32>>, degree: usize, v: u32| {
-        if queues.len() <= degree {
-            queues.resize(degree + 1, Vec::new());
-        }
-        queues[degree].push(v);
-    };
-    let interior = (0..count as u32).rev().filter(|&v| !graph.is_attachment(v));
-    for v in interior {
-        enqueue(&mut queues, remaining.len(v), v);
-    }
-
-    let mut order = Vec::with_capacity(count);
-    let mut is_gone = vec![false; count];
-    // Where in the list under work a neighbour stands, valid while the stamp is current.
-    let mut slots = vec![(0_u32, 0_u32); count];
-    let mut stamp = 0_u32;
-    let mut degree = 0;
-    // The links of the vertex under work, which its neighbours' lists must not move away from.
-    let mut links: Vec<Link> = Vec::new();
-    while degree < queues.len() {
-        let Some(v) = queues[degree].pop() else {
-            degree += 1;
-            continue;
-        };
-        if is_gone[v as usize] || remaining.len(v) != degree {
-            continue;
-        }
-        is_gone[v as usize] = true;
-        links.clear();
-        links.extend_from_slice(remaining.of(v));
-        for own in &links {
-            remaining.remove(own.to, v);
-            stamp = stamp.wrapping_add(1);
-            for (slot, link) in remaining.of(own.to).iter().enumerate() {
-                slots[link.to as usize] = (stamp, slot as u32);
-            }
-            for other in links.iter().filter(|other| other.to != own.to) {
-                let weight = own.weight + other.weight;
-                match slots[other.to as usize] {
-                    (s, slot) if s == stamp => {
-                        let link = &mut remaining.of_mut(own.to)[slot as usize];
-                        if weight < link.weight {
-                            (link.weight, link.middle) = (weight, v);
-                        }
-                    }
-                    _ => remaining.push(own.to, Link { to: other.to, middle: v, weight }),
-                }
-            }
-            let new_degree = remaining.len(own.to);
-            enqueue(&mut queues, new_degree, own.to);
-            degree = degree.min(new_degree);
-        }
-        order.push(v);
-    }
-    (order, remaining)
-}
-
-/// The same elimination in another order with the same links: every vertex right after the vertices that
-/// have it as their first later neighbour. Ranks that are close then share most of their way up.
-fn in_postorder(order: &[u32], links: &LinkLists) -> Vec<u32> {
-    const NONE: u32 = u32::MAX;
-    let mut place = vec![NONE; links.spans.len()];
-    for (&v, k) in order.iter().zip(0..) {
-        place[v as usize] = k;
-    }
-    // The children of every vertex as a chain, the earliest eliminated first.
-    let mut first_child = vec![NONE; order.len()];
-    let mut next_sibling = vec![NONE; order.len()];
-    let mut stack: Vec<u32> = Vec::new();
-    for (k, &v) in order.iter().enumerate().rev() {
-        match links.of(v).iter().map(|link| place[link.to as usize]).min() {
-            Some(parent) => {
-                next_sibling[k] = std::mem::replace(&mut first_child[parent as usize], k as u32);
-            }
-            None => stack.push(k as u32),
-        }
-    }
-    stack.reverse();
-    // Parents before their children, then reversed.
-    let mut places = Vec::with_capacity(order.len());
-    while let Some(k) = stack.pop() {
-        places.push(k);
-        let mut child = first_child[k as usize];
-        while child != NONE {
-            stack.push(child);
-            child = next_sibling[child as usize];
-        }
-    }
-    places.reverse();
-    places.into_iter().map(|k| order[k as usize]).collect()
 }

@@ -2,9 +2,12 @@
 #![forbid(unsafe_code)]
 
 mod construction;
+mod distances;
+mod elimination;
 mod error;
 mod graph;
 mod hierarchy;
+mod labels;
 mod matrix;
 mod nearby;
 mod path_finder;
@@ -15,8 +18,10 @@ mod triangulation;
 #[cfg(feature = "petgraph")]
 mod visit;
 
+pub use distances::Distances;
 pub use error::{GraphError, PointKind};
 pub use graph::PathGraph;
+pub use labels::DistanceLabels;
 pub use matrix::DistanceMatrix;
 pub use path_finder::PathFinder;
 pub use space::{FreeSpace, Nodes};

@@ -9,12 +9,12 @@ use crate::{DistanceMatrix, PathGraph};
 /// How many sources a sweep carries side by side. With fewer the links are read more often, with more the sweep
 /// climbs through vertices that few of its sources need; 8 to 32 were equally fast on graphs of 900 to 5,300
 /// vertices, and 16 lengths fill half of the vector registers of the plainest x86-64.
-const LANES: usize = 16;
+pub(crate) const LANES: usize = 16;
 
 /// The distances of one vertex from the sources of a sweep.
-type Lanes = [f64; LANES];
+pub(crate) type Lanes = [f64; LANES];
 
-const UNREACHED: Lanes = [f64::INFINITY; LANES];
+pub(crate) const UNREACHED: Lanes = [f64::INFINITY; LANES];
 
 impl PathGraph {
     /// The lengths of shortest paths between all pairs of the vertices `among`, infinite where there is no
@@ -47,19 +47,7 @@ impl PathGraph {
     #[must_use]
     pub fn distances(&self, among: &[u32]) -> DistanceMatrix {
         let hierarchy = self.hierarchy();
-        // The distinct vertices in the order of rank, and for each entry of the list its place among them.
-        let mut mentions: Vec<(u32, usize)> =
-            among.iter().enumerate().filter_map(|(k, &v)| Some((hierarchy.rank(v)?, k))).collect();
-        mentions.sort_unstable();
-        let mut places = vec![NOWHERE; among.len()];
-        let mut sources: Vec<u32> = Vec::with_capacity(mentions.len());
-        for (rank, k) in mentions {
-            if sources.last() != Some(&rank) {
-                sources.push(rank);
-            }
-            places[k] = sources.len() as u32 - 1;
-        }
-
+        let Sources { ranks: sources, places } = Sources::of(hierarchy, among);
         let mut by_rank = DistanceMatrix::zero(sources.len());
         let mut sweep = Sweep::new(hierarchy, &sources);
         let arch = Arch::new();
@@ -97,6 +85,31 @@ impl PathGraph {
                 }
             }
         }
+    }
+}
+
+/// A list of vertices as searches see it.
+pub(crate) struct Sources {
+    /// The ranks of the distinct vertices, ascending.
+    pub(crate) ranks: Vec<u32>,
+    /// For each entry of the list its place among them, or [`NOWHERE`] for a vertex that does not exist.
+    pub(crate) places: Vec<u32>,
+}
+
+impl Sources {
+    pub(crate) fn of(hierarchy: &Hierarchy, among: &[u32]) -> Self {
+        let mut mentions: Vec<(u32, usize)> =
+            among.iter().enumerate().filter_map(|(k, &v)| Some((hierarchy.rank(v)?, k))).collect();
+        mentions.sort_unstable();
+        let mut places = vec![NOWHERE; among.len()];
+        let mut ranks: Vec<u32> = Vec::with_capacity(mentions.len());
+        for (rank, k) in mentions {
+            if ranks.last() != Some(&rank) {
+                ranks.push(rank);
+            }
+            places[k] = ranks.len() as u32 - 1;
+        }
+        Self { ranks, places }
     }
 }
 
@@ -204,7 +217,7 @@ impl<'h> Sweep<'h> {
 
 /// Lowers the lengths in `here` to those by way of a vertex with the lengths `there`.
 #[inline(always)]
-fn lower(here: &mut Lanes, there: &Lanes, weight: f64) {
+pub(crate) fn lower(here: &mut Lanes, there: &Lanes, weight: f64) {
     for (a, b) in here.iter_mut().zip(there) {
         let through = b + weight;
         // Not `f64::min`: its rule for NaN, which cannot occur here, costs three more instructions.

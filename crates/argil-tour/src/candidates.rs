@@ -24,6 +24,11 @@ pub(crate) struct CandidateLists {
 }
 
 impl CandidateLists {
+    /// How many nodes have a list.
+    pub(crate) fn nodes(&self) -> usize {
+        self.starts.len().saturating_sub(1)
+    }
+
     /// The candidates of node `a`, nearest first, ties in the order of their numbers.
     #[inline]
     pub(crate) fn of(&self, a: u32) -> &[Candidate] {

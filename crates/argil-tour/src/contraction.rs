@@ -1,9 +1,16 @@
 //! A smaller tour to begin with: paths instead of nodes.
 
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
 use crate::Metric;
+use crate::candidates::CandidateLists;
 use crate::construction::GreedyEdge;
 
 const NONE: u32 = u32::MAX;
+
+/// How many nodes are passed at most on the way to the ends near an end: it is a tenth of the nodes that are ends.
+const MOST_PASSED: usize = 400;
 
 /// The ends of the paths that a greedy construction has made, numbered anew.
 ///
@@ -39,6 +46,54 @@ impl Contraction {
     /// The metric between the ends.
     pub(crate) fn metric<'a, M: Metric>(&'a self, metric: &'a M) -> PathMetric<'a, M> {
         PathMetric { metric, contraction: self }
+    }
+
+    /// For each end its mate and the first `count` other ends that are reached from candidate to candidate.
+    ///
+    /// These are the nearest ends or nearly so, and no distance is asked for.
+    pub(crate) fn ends_near(&self, candidates: &CandidateLists, count: usize) -> Vec<Vec<u32>> {
+        let nodes = candidates.nodes();
+        let mut end_at = vec![NONE; nodes];
+        for (&node, k) in self.ends.iter().zip(0..) {
+            end_at[node as usize] = k;
+        }
+        // The least length by which a node was reached, and the search that says so.
+        let mut reached = vec![(NONE, f64::INFINITY); nodes];
+        let mut waiting: BinaryHeap<Reverse<(u64, u32)>> = BinaryHeap::new();
+        let mut lists = Vec::with_capacity(self.ends.len());
+        for (&from, end) in self.ends.iter().zip(0..) {
+            let mate = self.mates[end as usize];
+            let mut near: Vec<u32> = Some(mate).into_iter().filter(|&mate| mate != NONE).collect();
+            waiting.clear();
+            waiting.push(Reverse((0, from)));
+            reached[from as usize] = (end, 0.0);
+            let mut passed = 0;
+            while let Some(Reverse((bits, node))) = waiting.pop() {
+                // Distances are not negative, so that their bits order them.
+                let length = f64::from_bits(bits);
+                if length > reached[node as usize].1 {
+                    continue;
+                }
+                passed += 1;
+                let other = end_at[node as usize];
+                if other != NONE && other != end && other != mate {
+                    near.push(other);
+                }
+                if near.len() >= count || passed >= MOST_PASSED {
+                    break;
+                }
+                for candidate in candidates.of(node) {
+                    let longer = length + candidate.distance.max(0.0);
+                    let known = &mut reached[candidate.node as usize];
+                    if known.0 != end || longer < known.1 {
+                        *known = (end, longer);
+                        waiting.push(Reverse((longer.to_bits(), candidate.node)));
+                    }
+                }
+            }
+            lists.push(near);
+        }
+        lists
     }
 
     /// Puts the paths in place of their ends: `order` is a tour of the ends, in which mates are neighbours.

@@ -8,13 +8,17 @@ use crate::Metric;
 /// Above this many nodes the table (two megabytes at 16 nodes) and the time grow out of proportion.
 pub(crate) const MOST_NODES: usize = 16;
 
+/// Lengths side by side in the table: rows of a multiple of this many are added and compared at once.
+const LANES: usize = 4;
+
 /// The table of shortest paths, kept from call to call.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct HeldKarp {
-    /// `shortest[set * free + last]`: the shortest path from the fixed node through all of `set`, which ends at
-    /// its member `last`.
-    shortest: Vec<f64>,
-    distances: Vec<f64>,
+    /// The row of `set` has at place `last` the shortest path from the fixed node through all of `set` to `last`,
+    /// which is none of it; at the places of its members nothing that is used.
+    shortest: Vec<[f64; LANES]>,
+    /// The distances from each node, the fixed one included, to all.
+    distances: Vec<[f64; LANES]>,
 }
 
 impl HeldKarp {
@@ -30,35 +34,24 @@ impl HeldKarp {
             return;
         }
         let free = n - 1;
+        let stride = free.div_ceil(LANES);
         self.distances.clear();
+        self.distances.resize(n * stride, [0.0; LANES]);
         for a in 0..n {
-            for b in 0..n {
-                self.distances.push(metric.distance(a.max(b), a.min(b)));
+            for b in 0..free {
+                self.distances[a * stride + b / LANES][b % LANES] = metric.distance(a.max(b), a.min(b));
             }
         }
-        let distances = &self.distances;
-        let shortest = &mut self.shortest;
-        shortest.clear();
-        shortest.resize(free << free, f64::INFINITY);
-        for last in 0..free {
-            shortest[(1 << last) * free + last] = distances[free * n + last];
+        match stride {
+            1 => self.fill::<1>(free),
+            2 => self.fill::<2>(free),
+            3 => self.fill::<3>(free),
+            // There are at most sixteen nodes.
+            _ => self.fill::<4>(free),
         }
-        for set in 1..1_usize << free {
-            if set.is_power_of_two() {
-                continue;
-            }
-            for last in members(set) {
-                let before = set & !(1 << last);
-                let mut least = f64::INFINITY;
-                for previous in members(before) {
-                    let length = shortest[before * free + previous] + distances[previous * n + last];
-                    if length < least {
-                        least = length;
-                    }
-                }
-                shortest[set * free + last] = least;
-            }
-        }
+        let (distances, shortest) = (&self.distances, &self.shortest);
+        let length_to = |set: usize, last: usize| shortest[set * stride + last / LANES][last % LANES];
+        let distance = |a: usize, b: usize| distances[a * stride + b / LANES][b % LANES];
         // Walk back from the full set: each step is the one that the table was filled by.
         let mut set = (1 << free) - 1;
         let mut next = free;
@@ -66,7 +59,8 @@ impl HeldKarp {
         while set != 0 {
             let mut best = None;
             for last in members(set) {
-                let length = shortest[set * free + last] + distances[last * n + next];
+                // The first step back is from the fixed node, whose row has all distances.
+                let length = length_to(set & !(1 << last), last) + distance(next, last);
                 if best.is_none_or(|(least, _)| length < least) {
                     best = Some((length, last));
                 }
@@ -75,6 +69,29 @@ impl HeldKarp {
             order.push(last as u32);
             set &= !(1 << last);
             next = last;
+        }
+    }
+
+    /// Fills the table row by row; a row is kept in registers, for its length is known.
+    fn fill<const STRIDE: usize>(&mut self, free: usize) {
+        let (distances, _) = self.distances.as_chunks::<STRIDE>();
+        let shortest = &mut self.shortest;
+        shortest.clear();
+        shortest.reserve(STRIDE << free);
+        shortest.extend_from_slice(&distances[free]);
+        for set in 1..1_usize << free {
+            let mut row = [[f64::INFINITY; LANES]; STRIDE];
+            for last in members(set) {
+                let to_last = shortest[(set & !(1 << last)) * STRIDE + last / LANES][last % LANES];
+                let from_last = &distances[last];
+                for k in 0..STRIDE {
+                    for lane in 0..LANES {
+                        let length = to_last + from_last[k][lane];
+                        row[k][lane] = if length < row[k][lane] { length } else { row[k][lane] };
+                    }
+                }
+            }
+            shortest.extend_from_slice(&row);
         }
     }
 }

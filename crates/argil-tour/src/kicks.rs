@@ -4,6 +4,7 @@ use crate::Metric;
 use crate::array_tour::Piece;
 use crate::local_search::LocalSearch;
 use crate::random::SplitMix;
+use crate::remembered::FEWEST_REMEMBERED;
 
 /// Steps of the walks that find the cuts of a near kick.
 const NEAR_STEPS: usize = 8;
@@ -21,6 +22,10 @@ const FAR_STEPS: usize = 50;
 /// A far kick begins at the longest of this many edges drawn.
 const FAR_DRAWS: usize = 10;
 
+/// On a long tour a kick begins within so many places, which move along it from kick to kick, once round: what is
+/// asked for then has mostly been asked for shortly before.
+const DISTRICT: usize = 250;
+
 /// Fewer nodes than this leave no room for kicks, nor need for them.
 const FEWEST_NODES: usize = 8;
 
@@ -37,7 +42,12 @@ impl<M: Metric> LocalSearch<'_, M> {
             return 0.0;
         }
         let mut gained = 0.0;
-        for _ in 0..kicks {
+        for kick in 0..kicks {
+            if n >= FEWEST_REMEMBERED {
+                // Below the number of nodes, for the kick is below the number of kicks.
+                let start = (kick as f64 / kicks as f64 * n as f64) as usize;
+                self.district = (start.min(n - 1), DISTRICT);
+            }
             self.tour.commit();
             let far = random.below(FAR_ONE_IN) == 0;
             let bridge = if far { self.far_bridge(random) } else { self.gentlest_near_bridge(random) };
@@ -69,7 +79,7 @@ impl<M: Metric> LocalSearch<'_, M> {
     /// DOI 10.1287/ijoc.15.1.82.15157, where it is the best of the kicks tried. Near is meant in the metric; the
     /// edges may be far apart on the tour.
     fn near_bridge(&self, random: &mut SplitMix) -> Option<DoubleBridge> {
-        let first = random.below(self.tour.len());
+        let first = self.draw(random);
         let cuts = [0, 1, 2, 3].map(|walk| {
             let mut node = self.tour.at(first).node;
             for _ in 0..if walk == 0 { 0 } else { NEAR_STEPS } {
@@ -87,8 +97,7 @@ impl<M: Metric> LocalSearch<'_, M> {
     /// find it: without these kicks some layers stay 0.4 to 1.5 % too long for good.
     fn far_bridge(&self, random: &mut SplitMix) -> Option<DoubleBridge> {
         let longer = |a: usize, b: usize| if self.tour.at(b).ahead > self.tour.at(a).ahead { b } else { a };
-        let n = self.tour.len();
-        let first = (1..FAR_DRAWS).fold(random.below(n), |longest, _| longer(longest, random.below(n)));
+        let first = (1..FAR_DRAWS).fold(self.draw(random), |longest, _| longer(longest, self.draw(random)));
         let ends = [first, self.tour.after(first)].map(|position| self.tour.at(position).node);
         let mut cuts = [first; 4];
         for k in 1..4 {
@@ -106,6 +115,13 @@ impl<M: Metric> LocalSearch<'_, M> {
             cuts[k] = longest?;
         }
         self.bridge(cuts)
+    }
+
+    /// A random position of the district.
+    fn draw(&self, random: &mut SplitMix) -> usize {
+        let (start, length) = self.district;
+        let position = start + random.below(length);
+        if position >= self.tour.len() { position - self.tour.len() } else { position }
     }
 
     /// A random candidate neighbour of `node`.

@@ -15,6 +15,7 @@ mod local_search;
 mod metric;
 mod options;
 mod random;
+mod remembered;
 mod solver;
 mod tour;
 mod work_queue;

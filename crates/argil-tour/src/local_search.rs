@@ -29,6 +29,8 @@ pub(crate) struct LocalSearch<'a, M> {
     /// Gains up to this may be rounding, and would go round in circles. Not negative, so that every exchange is a
     /// gain and the descent ends.
     pub(crate) least_gain: f64,
+    /// The first position and the number of positions at one of which a kick begins.
+    pub(crate) district: (usize, usize),
     /// The edges that the exchange in question removes; how many, the search knows.
     cuts: [Cut; MOST_CUTS],
 }
@@ -49,6 +51,7 @@ impl<'a, M: Metric> LocalSearch<'a, M> {
     ) -> Self {
         let edges = tour.stops().iter().map(|stop| stop.ahead.abs());
         let length: f64 = edges.filter(|edge| edge.is_finite()).sum();
+        let district = (0, tour.len());
         // A sum of eight edges is off by some 1e-15 of the tour at most.
         Self {
             metric,
@@ -56,6 +59,7 @@ impl<'a, M: Metric> LocalSearch<'a, M> {
             tour,
             queue,
             least_gain: 1e-12 * length,
+            district,
             cuts: [Cut::default(); MOST_CUTS],
         }
     }

@@ -8,7 +8,8 @@
 /// of the nodes, but its length means little.
 ///
 /// The solver asks for one distance at a time, several hundred thousand times a tour: store what is dear to
-/// compute, for instance in a [`MatrixMetric`].
+/// compute, for instance in a [`MatrixMetric`]. Where that would take too much memory, from thousands of nodes on, the
+/// solver remembers what it asked last, and distances may be made on demand.
 pub trait Metric {
     /// How many nodes there are.
     fn nodes(&self) -> usize;

@@ -22,6 +22,6 @@ pub struct TourOptions {
 
 impl Default for TourOptions {
     fn default() -> Self {
-        Self { exact_up_to: 12, neighbours: 5, kicks_per_node: 1.5, seed: 0 }
+        Self { exact_up_to: 14, neighbours: 5, kicks_per_node: 1.5, seed: 0 }
     }
 }

@@ -7,6 +7,7 @@ use crate::contraction::Contraction;
 use crate::exact::{HeldKarp, MOST_NODES};
 use crate::local_search::LocalSearch;
 use crate::random::SplitMix;
+use crate::remembered::{FEWEST_REMEMBERED, Memory, Remembered};
 use crate::work_queue::WorkQueue;
 use crate::{Metric, Tour, TourOptions};
 
@@ -53,6 +54,7 @@ pub struct TourSolver {
     paths: GreedyEdge,
     contraction: Contraction,
     held_karp: HeldKarp,
+    memory: Memory,
 }
 
 impl TourSolver {
@@ -73,18 +75,34 @@ impl TourSolver {
         let n = metric.nodes();
         if n <= options.exact_up_to.clamp(3, MOST_NODES) {
             self.held_karp.solve(metric, &mut self.nodes.order);
+        } else if n < FEWEST_REMEMBERED {
+            self.search(metric, candidates, start, options);
         } else {
-            let mut random = SplitMix::new(options.seed);
-            let neighbours = options.neighbours.max(usize::from(candidates.is_empty()));
-            self.nodes.candidates.build(metric, neighbours, candidates);
-            match start {
-                Some(start) => mend(metric, start, &mut self.nodes.order),
-                None if n < FEWEST_CONTRACTED => self.nodes.construct(metric),
-                None => self.construct_by_paths(metric, neighbours, &mut random),
-            }
-            self.nodes.search(metric, kicks(options.kicks_per_node, n), &mut random);
+            let mut memory = std::mem::take(&mut self.memory);
+            memory.clear();
+            self.search(&Remembered::new(metric, &memory), candidates, start, options);
+            self.memory = memory;
         }
         Tour::canonical(&self.nodes.order, |a, b| metric.distance(a as usize, b as usize))
+    }
+
+    fn search<M: Metric>(
+        &mut self,
+        metric: &M,
+        candidates: &[Vec<u32>],
+        start: Option<&[usize]>,
+        options: &TourOptions,
+    ) {
+        let n = metric.nodes();
+        let mut random = SplitMix::new(options.seed);
+        let neighbours = options.neighbours.max(usize::from(candidates.is_empty()));
+        self.nodes.candidates.build(metric, neighbours, candidates);
+        match start {
+            Some(start) => mend(metric, start, &mut self.nodes.order),
+            None if n < FEWEST_CONTRACTED => self.nodes.construct(metric),
+            None => self.construct_by_paths(metric, neighbours, &mut random),
+        }
+        self.nodes.search(metric, kicks(options.kicks_per_node, n), &mut random);
     }
 
     /// Makes greedy paths, and of a short tour through them a tour of all nodes.
@@ -94,7 +112,13 @@ impl TourSolver {
         self.contraction.set(&self.paths);
         let ends = self.contraction.metric(metric);
         // One of the nearest is the other end of the path, which is a neighbour already.
-        self.ends.candidates.build(&ends, neighbours.max(NEAREST_ENDS) + 1, &[]);
+        let nearest = neighbours.max(NEAREST_ENDS) + 1;
+        if n < FEWEST_REMEMBERED {
+            self.ends.candidates.build(&ends, nearest, &[]);
+        } else {
+            let found = self.contraction.ends_near(&self.nodes.candidates, nearest);
+            self.ends.candidates.build(&ends, 0, &found);
+        }
         self.ends.construct(&ends);
         self.ends.search(&ends, KICKS_PER_END * ends.nodes(), random);
         self.contraction.expand(&self.ends.order, &self.paths, &mut self.nodes.order);
@@ -146,8 +170,10 @@ fn kicks(per_node: f64, n: usize) -> usize {
 /// node once, but for rounding. Another `start` is mended first: what is missing is inserted.
 ///
 /// # Complexity
-/// O(n²) distances to find the nearest nodes; beyond that the work is in the number of kicks, each of which costs
-/// about the same at any n. Memory is in O(n), and in O(2ⁿ n) for the few nodes that are solved exactly.
+/// O(n²) distances to find the nearest nodes, none if the caller names all candidates; beyond that the work is in the
+/// number of kicks, each of which costs about the same at any n. From 2,000 nodes on distances are remembered, so that a
+/// metric that makes them on demand is asked some hundred times a node. Memory is in O(n), and in O(2ⁿ n) for the few
+/// nodes that are solved exactly.
 ///
 /// # Example
 /// ```

@@ -48,6 +48,59 @@ fn a_grid_is_toured_by_unit_steps() {
     assert_eq!(shortest_tour(&metric, &[], None, &options).length, 144.0);
 }
 
+/// Points of the plane that count how often they are asked.
+struct Counting {
+    points: Vec<(f64, f64)>,
+    asked: std::cell::Cell<usize>,
+}
+
+impl Metric for Counting {
+    fn nodes(&self) -> usize {
+        self.points.len()
+    }
+
+    fn distance(&self, a: usize, b: usize) -> f64 {
+        self.asked.set(self.asked.get() + 1);
+        let (a, b) = (self.points[a], self.points[b]);
+        (a.0 - b.0).hypot(a.1 - b.1)
+    }
+}
+
+#[test]
+fn a_large_tour_asks_for_few_of_all_distances() {
+    // A grid in an order of its own, for 1,999 is prime to the number of nodes.
+    let (columns, rows) = (64_usize, 50_usize);
+    let n = columns * rows;
+    let cell = |k: usize| (k * 1999) % n;
+    let points = (0..n).map(|k| ((cell(k) % columns) as f64, (cell(k) / columns) as f64)).collect();
+    let metric = Counting { points, asked: std::cell::Cell::new(0) };
+    let mut node_at = vec![0; n];
+    (0..n).for_each(|k| node_at[cell(k)] = k as u32);
+    let beside = |k: usize| {
+        let (x, y) = (cell(k) % columns, cell(k) / columns);
+        let places = (y.max(1) - 1..(y + 2).min(rows))
+            .flat_map(|v| (x.max(1) - 1..(x + 2).min(columns)).map(move |u| (u, v)));
+        places
+            .map(|(u, v)| node_at[v * columns + u])
+            .filter(|&other| other as usize != k)
+            .collect::<Vec<u32>>()
+    };
+    let candidates: Vec<Vec<u32>> = (0..n).map(beside).collect();
+    let options = TourOptions { neighbours: 0, ..TourOptions::default() };
+    let mut solver = TourSolver::new();
+    let tour = solver.solve(&metric, &candidates, None, &options);
+    let mut seen = vec![false; n];
+    tour.order.iter().for_each(|&node| seen[node] = true);
+    assert!(tour.order.len() == n && seen.into_iter().all(|seen| seen));
+    assert!(tour.length >= n as f64 && tour.length < 1.03 * n as f64, "{} for {n} nodes", tour.length);
+    assert!(metric.asked.get() < n * n / 4, "{} of {} distances", metric.asked.get(), n * n);
+    // A solver that remembers another metric finds what a new one does.
+    let moved =
+        Counting { points: metric.points.iter().map(|p| (p.1, 3.0 * p.0)).collect(), asked: 0.into() };
+    let again = solver.solve(&moved, &candidates, None, &options);
+    assert_eq!(again, TourSolver::new().solve(&moved, &candidates, None, &options));
+}
+
 #[test]
 fn the_search_finds_nearly_every_small_shortest_tour() {
     let mut solver = TourSolver::new();
