@@ -20,8 +20,7 @@ pub(crate) fn holds(read: Result<Soup, MeshError>) {
         assert_eq!(placed.bounds().max[2], 20.0);
     }
     // What the reader made is a mesh by the constructor's own rules.
-    let again = Mesh::new(mesh.vertices().to_vec(), mesh.triangles().to_vec()).expect("a mesh is a mesh");
-    assert_eq!(again.triangles().len(), mesh.triangles().len());
+    Mesh::new(mesh.vertices().to_vec(), mesh.triangles().to_vec()).expect("a mesh is a mesh");
 }
 
 fn holds_together(mesh: &Mesh) {

@@ -2,7 +2,7 @@ use crate::EdgeTable;
 
 const NONE: u32 = u32::MAX;
 
-/// Triangles of which no two have the same corners.
+/// Triangles of which none is there again without need.
 pub(crate) struct Distinct {
     pub(crate) triangles: Vec<[u32; 3]>,
     /// Dropped since another one was there before.
@@ -13,11 +13,11 @@ pub(crate) struct Distinct {
 
 /// Drops triangles whose three corners another one has as well.
 ///
-/// Of those wound alike one stays, and so does one where more are wound one way than the other. Where a face is there as
-/// often one way as the other, it has no thickness. Two things lead to that: bodies that
-/// touch, of which each brings the face, and programs that write every triangle for both of its sides. What is around tells them
-/// apart: along the rim of a shared face an even number of other triangles meet, which close without it; along the rim of a
-/// face written twice there is an odd one, or none at all.
+/// Of those wound alike one stays, and so does one where more are wound one way than the other. Two cases are told apart by what is
+/// around, along the rim of the patch that such faces form. Along the rim of a face that two bodies have in common an even number
+/// of other triangles meet: if the bodies lie on both sides of it, they close without it and both copies go; if they
+/// lie on the same side, each needs its own and both copies stay. Along the rim of a face that a program wrote twice, or for
+/// both of its sides, an odd number meets, or none at all.
 ///
 /// # Complexity
 /// O(n log n) in the triangles.
@@ -34,16 +34,19 @@ pub(crate) fn distinct(vertex_count: usize, triangles: Vec<[u32; 3]>) -> Distinc
     sorted.sort_unstable();
     let mut found = Distinct { triangles: Vec::new(), duplicates: Vec::new(), inner: Vec::new() };
     let mut dropped = vec![false; triangles.len()];
-    let mut two_sided = Vec::new();
+    let (mut two_sided, mut doubled) = (Vec::new(), Vec::new());
     for group in sorted.chunk_by(|a, b| a.0 == b.0).filter(|group| group.len() > 1) {
         let is_even = |&&(_, index): &&([u32; 3], u32)| runs_up(triangles[index as usize]);
         let even = group.iter().filter(is_even).count();
         let odd = group.len() - even;
         let keeps_even = even > odd || (even == odd && runs_up(triangles[group[0].1 as usize]));
-        let kept = group.iter().find(|&&(_, index)| runs_up(triangles[index as usize]) == keeps_even);
-        let kept = kept.map_or(NONE, |&(_, index)| index);
-        if even == odd {
-            two_sided.push(kept);
+        let mut alike =
+            group.iter().map(|pair| pair.1).filter(|&k| runs_up(triangles[k as usize]) == keeps_even);
+        let kept = alike.next().unwrap_or(NONE);
+        match even.abs_diff(odd) {
+            0 => two_sided.push(kept),
+            1 => {}
+            _ => doubled.push((kept, alike.next().unwrap_or(NONE))),
         }
         for &(_, index) in group.iter().filter(|&&(_, index)| index != kept) {
             dropped[index as usize] = true;
@@ -52,7 +55,13 @@ pub(crate) fn distinct(vertex_count: usize, triangles: Vec<[u32; 3]>) -> Distinc
     if !dropped.contains(&true) {
         return Distinct { triangles, ..found };
     }
-    let inner = inner_faces(vertex_count, &triangles, &dropped, &two_sided);
+    let edges = EdgeTable::new(vertex_count, &triangles);
+    let inner = in_common(&edges, &dropped, &two_sided);
+    let firsts: Vec<u32> = doubled.iter().map(|pair| pair.0).collect();
+    let common = in_common(&edges, &dropped, &firsts);
+    for (first, second) in doubled {
+        dropped[second as usize] = !common[first as usize];
+    }
     for (corners, (is_dropped, is_inner)) in triangles.into_iter().zip(dropped.into_iter().zip(inner)) {
         match (is_dropped, is_inner) {
             (_, true) => found.inner.push(corners),
@@ -68,34 +77,27 @@ fn runs_up([a, b, c]: [u32; 3]) -> bool {
     !((a < b) ^ (b < c) ^ (c < a))
 }
 
-/// Which of the faces without thickness lie between bodies, by patches that share edges.
-fn inner_faces(
-    vertex_count: usize,
-    triangles: &[[u32; 3]],
-    dropped: &[bool],
-    two_sided: &[u32],
-) -> Vec<bool> {
-    let mut inner = vec![false; triangles.len()];
-    if two_sided.is_empty() {
-        return inner;
+/// Which of some faces two bodies have in common, by the patches that they form where they share edges.
+fn in_common(edges: &EdgeTable, dropped: &[bool], faces: &[u32]) -> Vec<bool> {
+    let mut common = vec![false; dropped.len()];
+    if faces.is_empty() {
+        return common;
     }
-    let edges = EdgeTable::new(vertex_count, triangles);
-    let mut is_two_sided = vec![false; triangles.len()];
-    two_sided.iter().for_each(|&face| is_two_sided[face as usize] = true);
-    // Other triangles along each edge, and one face of no thickness for each: those of an edge are joined by it.
+    let mut is_face = vec![false; dropped.len()];
+    faces.iter().for_each(|&face| is_face[face as usize] = true);
     let mut others = vec![0_u32; edges.ends().len()];
     let mut faces_of: Vec<Vec<u32>> = vec![Vec::new(); edges.ends().len()];
     for (triangle, sides) in edges.of_triangles().iter().enumerate().filter(|&(k, _)| !dropped[k]) {
         for &side in sides {
-            if is_two_sided[triangle] {
+            if is_face[triangle] {
                 faces_of[side as usize].push(triangle as u32);
             } else {
                 others[side as usize] += 1;
             }
         }
     }
-    let mut met = vec![false; triangles.len()];
-    for &first in two_sided {
+    let mut met = vec![false; dropped.len()];
+    for &first in faces {
         if std::mem::replace(&mut met[first as usize], true) {
             continue;
         }
@@ -118,10 +120,10 @@ fn inner_faces(
             }
         }
         if even > odd {
-            patch.iter().for_each(|&face| inner[face as usize] = true);
+            patch.iter().for_each(|&face| common[face as usize] = true);
         }
     }
-    inner
+    common
 }
 
 #[cfg(test)]
@@ -149,6 +151,17 @@ mod tests {
         // The same with one face only.
         let found = distinct(4, [outside, &[[0, 2, 1]]].concat());
         assert_eq!((found.triangles.len(), found.inner.len()), (4, 0));
+    }
+
+    #[test]
+    fn a_face_that_two_bodies_have_on_the_same_side_stays_twice() {
+        // Two tetrahedra of different height over the same base.
+        let base = [[0, 2, 1], [0, 2, 1]];
+        let sides = |top: u32| [[0, 1, top], [1, 2, top], [2, 0, top]];
+        let all = [&base[..], &sides(3), &sides(4)].concat();
+        let found = distinct(5, all.clone());
+        assert_eq!(found.triangles, all);
+        assert!(found.duplicates.is_empty() && found.inner.is_empty());
     }
 
     #[test]

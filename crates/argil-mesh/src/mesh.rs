@@ -8,7 +8,7 @@ pub(crate) const LARGEST: f64 = 1e6;
 /// A triangle mesh whose coincident vertices are one vertex.
 ///
 /// Corners of a triangle run counter-clockwise seen from outside the solid. Every index is valid,
-/// every coordinate finite, no triangle names a vertex twice, and no two have the same corners: the constructors see to it.
+/// every coordinate finite, and no triangle names a vertex twice: the constructors see to it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
     vertices: Vec<[f64; 3]>,
@@ -60,7 +60,7 @@ impl Mesh {
     /// than three different corners are dropped: they enclose nothing and their neighbours meet
     /// without them. Thin triangles of no area but three corners stay, since their neighbours
     /// need them. Of triangles with the same corners one stays; where bodies touch in a face that both have, neither of the two
-    /// does, so that the bodies are one. Vertices that no triangle uses are dropped. [`Soup::repaired`] does the same and
+    /// does, so that the bodies are one; where both have it on the same side, each keeps its own. Vertices that no triangle uses are dropped. [`Soup::repaired`] does the same and
     /// counts what it drops.
     ///
     /// # Errors

@@ -603,3 +603,14 @@ fn layers_that_enclose_nothing_are_no_mesh() {
     ));
     assert!(matches!(stacked(&[], f64::NAN), Err(SliceError::Setting { setting: "layer_height", .. })));
 }
+
+#[test]
+fn bodies_with_a_side_in_common_overlap_as_others_do() {
+    // Both have the side at x = 10, with the same triangles, wound alike.
+    let short = Body::cuboid([0.0; 3], [10.0, 10.0, 3.0]);
+    let long = Body::cuboid([-5.0, 0.0, 0.0], [10.0, 10.0, 3.0]);
+    for layer in &slice(&short.and(long).mesh(), &settings(1)).unwrap() {
+        assert!((area(layer) - 150.0).abs() < 1e-6);
+        assert!(layer.losses.is_empty(), "{:?}", layer.losses);
+    }
+}
