@@ -50,8 +50,11 @@ fn packages() -> BTreeMap<String, (PathBuf, Table)> {
     packages
 }
 
-fn words(value: &Value) -> Vec<&str> {
-    value.as_array().unwrap().iter().map(|word| word.as_str().unwrap()).collect()
+/// The words of a list in a package's manifest, or of that which it has from the workspace.
+fn words<'a>(package: &'a Value, field: &str, workspace: &'a Table) -> Vec<&'a str> {
+    let shared = &workspace["workspace"]["package"];
+    let owner = if package[field].get("workspace").is_some() { shared } else { package };
+    owner[field].as_array().unwrap().iter().map(|word| word.as_str().unwrap()).collect()
 }
 
 /// The dependencies in the tables of these names.
@@ -64,6 +67,7 @@ const KINDS: [&str; 3] = ["dependencies", "dev-dependencies", "build-dependencie
 
 #[test]
 fn every_package_says_what_a_registry_asks() {
+    let workspace = manifest(&root());
     for (name, (_, manifest)) in packages() {
         let package = &manifest["package"];
         for field in ["version", "edition", "rust-version", "license", "repository"] {
@@ -76,10 +80,10 @@ fn every_package_says_what_a_registry_asks() {
             "{name}: {description}"
         );
 
-        let categories = words(&package["categories"]);
+        let categories = words(package, "categories", &workspace);
         assert!((1..=5).contains(&categories.len()), "{name}: {categories:?}");
         assert!(categories.iter().all(|category| CATEGORIES.contains(category)), "{name}: {categories:?}");
-        let keywords = words(&package["keywords"]);
+        let keywords = words(package, "keywords", &workspace);
         assert!((3..=5).contains(&keywords.len()), "{name}: {keywords:?}");
         assert_eq!(keywords.iter().collect::<BTreeSet<_>>().len(), keywords.len(), "{name}: {keywords:?}");
         for word in keywords {
