@@ -11,6 +11,7 @@ pub enum Amount {
 
 impl Amount {
     /// The value as a number.
+    #[must_use]
     pub fn value(self) -> f64 {
         match self {
             Self::Count(count) => count as f64,
@@ -37,6 +38,7 @@ macro_rules! figures {
 
         impl Figures {
             /// Every figure under its name, the flow last.
+            #[must_use]
             pub fn entries(&self) -> Vec<(&'static str, Amount)> {
                 let mut entries = vec![$((stringify!($name), Amount::$amount(self.$name)),)*];
                 let [low, high] = self.flow_per_mm_p01_p99.map_or([None; 2], |flow| flow.map(Some));

@@ -50,6 +50,7 @@ pub enum FindingKind {
 
 impl FindingKind {
     /// The name used in reports.
+    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::UnreadableLine => "unreadable line",

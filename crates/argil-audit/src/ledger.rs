@@ -25,6 +25,7 @@ pub enum ContactCause {
 
 impl ContactCause {
     /// The name used in reports.
+    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Root => "root",

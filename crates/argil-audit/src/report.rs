@@ -39,11 +39,13 @@ pub struct Shortfall {
 
 impl Report {
     /// Whether this is a strictly continuous, self-supported print of the whole model.
+    #[must_use]
     pub fn is_sound(&self) -> bool {
         self.falls_short().is_empty()
     }
 
     /// Every figure that misses its limit.
+    #[must_use]
     pub fn falls_short(&self) -> Vec<Shortfall> {
         let f = &self.figures;
         let count = |n: usize| n as f64;
@@ -82,6 +84,7 @@ impl Report {
     /// Number and length in mm of the places of contact by cause, in the order of [`ContactCause`].
     ///
     /// [`ContactCause`]: crate::ContactCause
+    #[must_use]
     pub fn contacts_by_cause(&self) -> Vec<(ContactCause, usize, f64)> {
         let mut causes: BTreeMap<ContactCause, (usize, f64)> = BTreeMap::new();
         for place in &self.contacts {

@@ -51,6 +51,7 @@ impl Default for AuditSettings {
 impl AuditSettings {
     /// The proportions of the clay profile for a bead of another width, in mm: layers of w/3, one wall,
     /// `ε_across` 0.3 w, `ε_along` 1.6 w, samples every w/15.
+    #[must_use]
     pub fn for_width(width: f64) -> Self {
         Self {
             width,

@@ -78,11 +78,13 @@ impl Calibration {
     }
 
     /// The overhang of a lean in bead widths a layer, in degrees from the vertical: what a material's file states.
+    #[must_use]
     pub fn overhang(&self, lean: f64) -> f64 {
         (lean * self.width / self.layer_height).atan().to_degrees()
     }
 
     /// By how much more paste than reckoned a machine pushes out if the bead comes out this wide, mm.
+    #[must_use]
     pub fn flow(&self, measured: f64) -> f64 {
         self.bead.area(measured, self.layer_height) / self.bead.area(self.width, self.layer_height)
     }

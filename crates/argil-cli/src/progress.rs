@@ -29,7 +29,8 @@ impl PlanBar {
                 self.bar.set_message("planning");
             }
             Progress::Layer { .. } => self.bar.inc(1),
-            _ => self.bar.set_message("joining"),
+            Progress::Descended => self.bar.set_message("joining"),
+            _ => {}
         }
     }
 

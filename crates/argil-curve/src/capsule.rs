@@ -27,6 +27,7 @@ impl Segment {
     /// let beam = Segment::new(DVec2::new(-1.0, 0.0), DVec2::new(1.0, 0.0));
     /// assert_eq!(strand.part_within(&beam, 0.5), Some(SegmentPart { from: 1.5, to: 2.5 }));
     /// ```
+    #[must_use]
     pub fn part_within(&self, other: &Segment, radius: f64) -> Option<SegmentPart> {
         let length = self.length();
         let direction = (self.end - self.start) / length;

@@ -95,16 +95,19 @@ impl ClosedCurve {
     }
 
     /// The vertices, in order.
+    #[must_use]
     pub fn points(&self) -> &[DVec2] {
         &self.points
     }
 
     /// Number of segments, which is the number of vertices.
+    #[must_use]
     pub fn segment_count(&self) -> usize {
         self.points.len()
     }
 
     /// The segment that begins at vertex `k`; `k` is cyclic.
+    #[must_use]
     pub fn segment(&self, k: usize) -> Segment {
         let n = self.points.len();
         Segment::new(self.points[k % n], self.points[(k % n + 1) % n])
@@ -116,16 +119,19 @@ impl ClosedCurve {
     }
 
     /// Length of the whole curve, mm. Always positive and finite.
+    #[must_use]
     pub fn length(&self) -> f64 {
         self.arcs[self.points.len()]
     }
 
     /// Arc length from vertex 0 to `vertex`, mm; `vertex` is cyclic.
+    #[must_use]
     pub fn arc_of(&self, vertex: usize) -> f64 {
         self.arcs[vertex % self.points.len()]
     }
 
     /// The same place on the curve with its arc length brought into one turn; 0 for what is not finite.
+    #[must_use]
     pub fn wrapped(&self, s: f64) -> f64 {
         if s >= 0.0 && s < self.length() {
             return s;
@@ -139,6 +145,7 @@ impl ClosedCurve {
     ///
     /// # Complexity
     /// O(log n).
+    #[must_use]
     pub fn locate(&self, s: f64) -> OnCurve {
         let s = self.wrapped(s);
         let segment = self.arcs.partition_point(|&arc| arc <= s).clamp(1, self.points.len()) - 1;
@@ -151,6 +158,7 @@ impl ClosedCurve {
     ///
     /// # Complexity
     /// O(log n).
+    #[must_use]
     pub fn point_at(&self, s: f64) -> DVec2 {
         let place = self.locate(s);
         self.segment(place.segment).point_at(place.t)
@@ -160,6 +168,7 @@ impl ClosedCurve {
     ///
     /// # Complexity
     /// O(n). For many questions about one curve build a [`SegmentIndex`](crate::SegmentIndex).
+    #[must_use]
     pub fn nearest(&self, p: DVec2) -> NearestOnCurve {
         let mut least = self.segment(0).nearest(p).distance;
         let mut best = 0;
@@ -180,6 +189,7 @@ impl ClosedCurve {
     }
 
     /// The point of segment `k` nearest to `p`, with its arc length on the curve; `k` is cyclic.
+    #[must_use]
     pub fn on_segment(&self, k: usize, p: DVec2) -> NearestOnCurve {
         let segment = k % self.segment_count();
         let nearest = self.segment(segment).nearest(p);
@@ -189,6 +199,7 @@ impl ClosedCurve {
     }
 
     /// Arc length between `s` and `t` the shorter way round, mm.
+    #[must_use]
     pub fn arc_gap(&self, s: f64, t: f64) -> f64 {
         let ahead = (self.wrapped(s) - self.wrapped(t)).abs();
         ahead.min(self.length() - ahead)
@@ -197,6 +208,7 @@ impl ClosedCurve {
     /// Points evenly spaced along the arc, the first at arc length 0: as few as make the spacing no more than
     /// `step` (mm), but at least 6, so that even a tiny loop keeps an inside. Point k lies at arc length k ×
     /// length / count. A step that is not positive gives 6; more than 2²⁴ points are never made.
+    #[must_use]
     pub fn resampled(&self, step: f64) -> Vec<DVec2> {
         let wanted = if step > 0.0 { (self.length() / step).ceil() } else { 0.0 };
         let count = wanted.clamp(6.0, MOST_SAMPLES) as usize;
@@ -217,6 +229,7 @@ impl ClosedCurve {
 
     /// The same curve, begun at the point at arc length `s`. The point becomes a vertex, unless one lies
     /// there already (within 1e-9 mm); all vertices stay.
+    #[must_use]
     pub fn rotated_to(&self, s: f64) -> ClosedCurve {
         let OnCurve { segment, t } = self.locate(s);
         let n = self.segment_count();
@@ -236,12 +249,14 @@ impl ClosedCurve {
     }
 
     /// Enclosed area, positive when the curve runs counter-clockwise, mm².
+    #[must_use]
     pub fn signed_area(&self) -> f64 {
         let origin = self.points[0];
         self.segments().map(|e| (e.start - origin).perp_dot(e.end - origin)).sum::<f64>() / 2.0
     }
 
     /// Whether `p` lies inside by the even-odd rule. On the curve itself the answer may be either.
+    #[must_use]
     pub fn contains(&self, p: DVec2) -> bool {
         let mut inside = false;
         let mut start = self.points[self.points.len() - 1];

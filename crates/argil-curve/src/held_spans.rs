@@ -17,12 +17,14 @@ pub struct ArcSpan {
 
 impl ArcSpan {
     /// Arc length where the stretch ends, mm; beyond the length of the curve when it runs over the beginning.
+    #[must_use]
     pub fn end(&self) -> f64 {
         self.start + self.length
     }
 
     /// Whether the place at arc length `s` of a curve of length `curve_length` lies in the stretch, its ends
     /// included.
+    #[must_use]
     pub fn contains(&self, s: f64, curve_length: f64) -> bool {
         (s - self.start).rem_euclid(curve_length) <= self.length
     }
@@ -51,6 +53,7 @@ impl ArcSpan {
 /// assert!((held[0].start - 1.5).abs() < 1e-12 && (held[0].length - 1.0).abs() < 1e-12);
 /// # Ok::<(), argil_curve::CurveError>(())
 /// ```
+#[must_use]
 pub fn held_spans(curve: &ClosedCurve, index: &SegmentIndex, across: f64) -> Vec<ArcSpan> {
     if across.is_nan() || across < 0.0 {
         return Vec::new();
@@ -100,6 +103,7 @@ fn join_round(runs: &mut Vec<(f64, f64)>, length: f64, join: f64) {
 ///
 /// Nothing held gives one gap that starts at 0 and has the full length. `held` must be disjoint and ordered
 /// by start, as `held_spans` gives it; the gaps come out the same way.
+#[must_use]
 pub fn gaps(curve_length: f64, held: &[ArcSpan]) -> Vec<ArcSpan> {
     if held.is_empty() {
         return vec![ArcSpan { start: 0.0, length: curve_length }];

@@ -43,6 +43,7 @@ impl PointIndex {
     ///
     /// # Complexity
     /// O(n).
+    #[must_use]
     pub fn new(points: &[DVec2], cell: f64) -> Self {
         let known = || points.iter().enumerate().filter(|(_, p)| p.abs().max_element() <= LARGEST);
         let (mut low, mut high, mut count) = (DVec2::INFINITY, DVec2::NEG_INFINITY, 0);

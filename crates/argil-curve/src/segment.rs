@@ -33,21 +33,25 @@ pub struct NearestOnSegment {
 
 impl Segment {
     /// The segment from `start` to `end`.
+    #[must_use]
     pub fn new(start: DVec2, end: DVec2) -> Self {
         Self { start, end }
     }
 
     /// Length in mm.
+    #[must_use]
     pub fn length(&self) -> f64 {
         self.start.distance(self.end)
     }
 
     /// The point at share `t` of the length. The ends come out exactly at `t` = 0 and `t` = 1.
+    #[must_use]
     pub fn point_at(&self, t: f64) -> DVec2 {
         self.start.lerp(self.end, t)
     }
 
     /// The point of the segment nearest to `p`. A segment without length answers with its start.
+    #[must_use]
     pub fn nearest(&self, p: DVec2) -> NearestOnSegment {
         let (t, point) = self.nearest_point(p);
         NearestOnSegment { t, point, distance: point.distance(p) }
@@ -64,6 +68,7 @@ impl Segment {
 
     /// Whether `p` lies within `distance` mm of the segment, the distance itself included. For a `p` beside the
     /// segment that is farther, the answer takes no division.
+    #[must_use]
     pub fn is_within(&self, p: DVec2, distance: f64) -> bool {
         !self.is_beyond(p, distance) && self.distance(p) <= distance
     }
@@ -81,11 +86,13 @@ impl Segment {
     }
 
     /// Distance from `p` to the segment, mm.
+    #[must_use]
     pub fn distance(&self, p: DVec2) -> f64 {
         self.nearest(p).distance
     }
 
     /// Least distance between the two segments, mm; 0 where they cross.
+    #[must_use]
     pub fn distance_to(&self, other: &Segment) -> f64 {
         if self.crosses(other) {
             return 0.0;
@@ -104,6 +111,7 @@ impl Segment {
     ///
     /// Touching, sharing an end and running along one another are no crossings. The sides come from a
     /// predicate with exact arithmetic, so neighbours of a path, which share an end, never count.
+    #[must_use]
     pub fn crosses(&self, other: &Segment) -> bool {
         !self.lies_apart(other) && parted(self, other.start, other.end) && parted(other, self.start, self.end)
     }
@@ -111,6 +119,7 @@ impl Segment {
     /// Whether the upright boxes round the segments are farther than `distance` mm apart along an axis, and so the segments. What is
     /// not may be farther all the same; this spares most of a search the full answer.
     #[inline]
+    #[must_use]
     pub fn is_boxed_beyond(&self, other: &Segment, distance: f64) -> bool {
         let (low, high) = (self.start.min(self.end), self.start.max(self.end));
         let (others_low, others_high) = (other.start.min(other.end), other.start.max(other.end));

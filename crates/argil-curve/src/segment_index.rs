@@ -58,6 +58,7 @@ impl SegmentIndex {
     ///
     /// # Complexity
     /// O(n + cells covered by the segments).
+    #[must_use]
     pub fn new(segments: Vec<Segment>, cell: f64) -> Self {
         let grid = Grid::over(&segments, cell);
         let footprints: Vec<Option<Footprint>> =
@@ -81,16 +82,19 @@ impl SegmentIndex {
     }
 
     /// An index over all segments of `curves`, in order.
+    #[must_use]
     pub fn of_curves<'a>(curves: impl IntoIterator<Item = &'a ClosedCurve>, cell: f64) -> Self {
         Self::new(curves.into_iter().flat_map(ClosedCurve::segments).collect(), cell)
     }
 
     /// The segments, in the order in which they were given.
+    #[must_use]
     pub fn segments(&self) -> &[Segment] {
         &self.segments
     }
 
     /// Whether there is no segment that a query could find.
+    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.items.is_empty()
     }
@@ -100,16 +104,19 @@ impl SegmentIndex {
     ///
     /// # Complexity
     /// O(1) near evenly spread segments; never more than the number of cells and items.
+    #[must_use]
     pub fn nearest(&self, p: DVec2) -> Option<NearestSegment> {
         self.search(p, f64::INFINITY)
     }
 
     /// Distance from `p` to the nearest segment, mm; infinity when there is none.
+    #[must_use]
     pub fn distance(&self, p: DVec2) -> f64 {
         self.nearest(p).map_or(f64::INFINITY, |nearest| nearest.distance)
     }
 
     /// The nearest segment, if it lies no further than `radius` mm from `p`.
+    #[must_use]
     pub fn nearest_within(&self, p: DVec2, radius: f64) -> Option<NearestSegment> {
         if radius <= FEW_CELLS * self.grid.cell {
             self.search_block(p, radius)
@@ -122,6 +129,7 @@ impl SegmentIndex {
     ///
     /// # Complexity
     /// As for [`nearest_within`](Self::nearest_within), but it ends at the first segment found.
+    #[must_use]
     pub fn is_within(&self, p: DVec2, radius: f64) -> bool {
         if self.is_empty() || !p.is_finite() || radius < 0.0 {
             return false;

@@ -54,6 +54,7 @@ pub enum CrossingKind {
 /// assert_eq!((found[0].first, found[0].second, found[0].kind), (0, 2, CrossingKind::Proper));
 /// assert_eq!(found[0].point, DVec2::new(1.0, 1.0));
 /// ```
+#[must_use]
 pub fn self_crossings(points: &[DVec2]) -> Vec<Crossing> {
     let mut found = proper_crossings(points);
     found.extend(vertex_crossings(points));

@@ -16,11 +16,13 @@ pub enum Flavour {
 
 impl Flavour {
     /// Whether the firmware takes E in mm³ after M200.
+    #[must_use]
     pub const fn knows_volumetric(self) -> bool {
         !matches!(self, Flavour::Klipper)
     }
 
     /// The flavour's name as its makers write it.
+    #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Flavour::Marlin => "Marlin",

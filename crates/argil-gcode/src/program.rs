@@ -19,6 +19,7 @@ pub struct Move {
 
 impl Move {
     /// Length in the plane, mm.
+    #[must_use]
     pub fn planar_length(&self) -> f64 {
         (self.to[0] - self.from[0]).hypot(self.to[1] - self.from[1])
     }
@@ -58,17 +59,20 @@ pub struct Program {
 
 impl Program {
     /// The word that the file gives a move, if any.
+    #[must_use]
     pub fn kind_of(&self, step: &Move) -> Option<&str> {
         self.kinds.get(step.kind?).map(String::as_str)
     }
 
     /// Sum of what is pushed out, in the file's unit of E; retractions count against it.
+    #[must_use]
     pub fn extruded(&self) -> f64 {
         self.moves.iter().map(|step| step.extruded).sum()
     }
 
     /// The moves from the first to the last that extrude while moving in the plane: what is left when approach,
     /// priming on the spot and departure are cut off.
+    #[must_use]
     pub fn strand_moves(&self) -> &[Move] {
         let lays = |step: &Move| step.extruded > 1e-9 && step.planar_length() > 1e-6;
         let first = self.moves.iter().position(lays);

@@ -31,6 +31,7 @@ pub const ARC_TOLERANCE: f64 = 0.02;
 /// assert_eq!(program.kind_of(step), Some("SUPPORT"));
 /// assert_eq!(program.bad_lines[0].line, 6);
 /// ```
+#[must_use]
 pub fn read_gcode(text: &str) -> Program {
     let mut machine = Machine::default();
     let unix = text.split('\n').map(|line| line.strip_suffix('\r').unwrap_or(line));

@@ -50,22 +50,26 @@ impl RoleNames {
     }
 
     /// The words of PrusaSlicer's g-code viewer.
+    #[must_use]
     pub fn prusa_slicer() -> Self {
         let words = ["External perimeter", "Support material", "Support material interface", "Custom"];
         Self::of_words([words[0], words[1], words[2], words[3], "Solid infill"])
     }
 
     /// The words of Cura's viewer, which many web viewers understand too.
+    #[must_use]
     pub fn cura() -> Self {
         Self::of_words(["WALL-OUTER", "SUPPORT", "SUPPORT-INTERFACE", "WALL-INNER", "FILL"])
     }
 
     /// The words of OrcaSlicer's g-code viewer.
+    #[must_use]
     pub fn orca_slicer() -> Self {
         Self::of_words(["Outer wall", "Support", "Support interface", "Custom", "Internal solid infill"])
     }
 
     /// The word for a role.
+    #[must_use]
     pub fn name(&self, role: Role) -> &str {
         match role {
             Role::Wall => &self.wall,
@@ -85,6 +89,7 @@ impl RoleNames {
     /// assert_eq!(RoleNames::cura().role("wall-outer"), Some(Role::Wall));
     /// assert_eq!(RoleNames::cura().role("Brim"), None);
     /// ```
+    #[must_use]
     pub fn role(&self, word: &str) -> Option<Role> {
         Role::ALL.into_iter().find(|&role| self.name(role).eq_ignore_ascii_case(word))
     }
@@ -170,6 +175,7 @@ impl Default for GcodeSettings {
 
 impl GcodeSettings {
     /// Paste in mm³ that one unit of E stands for in the file.
+    #[must_use]
     pub fn paste_per_e(&self) -> f64 {
         match self.extrusion {
             Extrusion::Volumetric { .. } => 1.0,
@@ -179,6 +185,7 @@ impl GcodeSettings {
 
     /// Speed on a layer, mm/s: as set, or what a constant rate of paste asks for. The layer is counted from the lowest;
     /// above the uppermost the speed is that of other layers.
+    #[must_use]
     pub fn speed(&self, strand: &Strand, layer: usize) -> f64 {
         match (self.extrusion, strand.layers().get(layer)) {
             (Extrusion::Constant { rate }, Some(laid)) => rate / self.bead.area(laid.width, laid.height),

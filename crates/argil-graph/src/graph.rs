@@ -159,38 +159,45 @@ impl PathGraph {
     }
 
     /// How many vertices there are; they are numbered from zero.
+    #[must_use]
     pub fn vertex_count(&self) -> usize {
         self.positions.len()
     }
 
     /// Where the vertex is, in mm; not a number for a vertex that does not exist.
+    #[must_use]
     pub fn position(&self, v: u32) -> DVec2 {
         self.positions.get(v as usize).copied().unwrap_or(DVec2::NAN)
     }
 
     /// The positions of all vertices, in mm.
+    #[must_use]
     pub fn positions(&self) -> &[DVec2] {
         &self.positions
     }
 
     /// The vertex of the attachment with index `k` in the caller's list; equal attachments share one.
     /// [`NO_VERTEX`](Self::NO_VERTEX) when the list is shorter.
+    #[must_use]
     pub fn attachment(&self, k: usize) -> u32 {
         self.attachments.get(k).copied().unwrap_or(Self::NO_VERTEX)
     }
 
     /// The vertex of the terminal with index `k` in the caller's list; equal terminals share one.
     /// [`NO_VERTEX`](Self::NO_VERTEX) when the list is shorter.
+    #[must_use]
     pub fn terminal(&self, k: usize) -> u32 {
         self.terminals.get(k).copied().unwrap_or(Self::NO_VERTEX)
     }
 
     /// Whether paths may begin and end at the vertex but not pass through it.
+    #[must_use]
     pub fn is_attachment(&self, v: u32) -> bool {
         self.is_attachment.get(v as usize).copied().unwrap_or(false)
     }
 
     /// How many undirected edges there are.
+    #[must_use]
     pub fn edge_count(&self) -> usize {
         self.targets.len() / 2
     }

@@ -53,11 +53,13 @@ impl DistanceMatrix {
 
     /// How many vertices the list had.
     #[inline]
+    #[must_use]
     pub fn len(&self) -> usize {
         self.count
     }
 
     /// Whether the list was empty.
+    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.count == 0
     }
@@ -65,12 +67,14 @@ impl DistanceMatrix {
     /// The length of a shortest path from the vertex with index `i` in the list to the one with index `j`:
     /// infinite when there is none, and when an index is out of range.
     #[inline]
+    #[must_use]
     pub fn get(&self, i: usize, j: usize) -> f64 {
         self.row(i).get(j).copied().unwrap_or(f64::INFINITY)
     }
 
     /// The lengths from the vertex with index `i` to all; empty when the index is out of range.
     #[inline]
+    #[must_use]
     pub fn row(&self, i: usize) -> &[f64] {
         if i < self.count { &self.lengths[i * self.count..(i + 1) * self.count] } else { &[] }
     }

@@ -40,6 +40,7 @@ impl PathGraph {
     /// assert_eq!(graph.nearby(&[0, 1, 2, 3], 1), [vec![1], vec![0, 2], vec![1, 3], vec![2]]);
     /// # Ok::<(), argil_graph::GraphError>(())
     /// ```
+    #[must_use]
     pub fn nearby(&self, among: &[u32], count: usize) -> Vec<Vec<u32>> {
         let reached = Reached::spread(self, among, count.min(among.len().saturating_sub(1)) + 1);
         let mut cells: Vec<(u32, u32)> = Vec::new();

@@ -41,11 +41,13 @@ impl PathGraph {
     /// # Complexity
     /// O(V) for the buffers and about O(√V log V) for the search on plane graphs. The first path or matrix of
     /// distances on a graph adds the elimination of its vertices, about as much time as a few Dijkstra searches.
+    #[must_use]
     pub fn path(&self, from: u32, to: u32) -> Option<Vec<u32>> {
         PathFinder::new(self).path(from, to)
     }
 
     /// Shortest paths from one vertex to each of `targets`, as [`path`](Self::path) finds them.
+    #[must_use]
     pub fn paths_from(&self, from: u32, targets: &[u32]) -> Vec<Option<Vec<u32>>> {
         let mut finder = PathFinder::new(self);
         targets.iter().map(|&to| finder.path(from, to)).collect()
@@ -57,6 +59,7 @@ impl<'g> PathFinder<'g> {
     ///
     /// # Complexity
     /// O(V), and the elimination if this is the first search in the graph.
+    #[must_use]
     pub fn new(graph: &'g PathGraph) -> Self {
         let count = graph.vertex_count();
         PathFinder {

@@ -44,6 +44,7 @@ impl PathGraph {
     /// assert_eq!(distances.row(0), [0.0, 7.0, f64::INFINITY]);
     /// # Ok::<(), argil_graph::GraphError>(())
     /// ```
+    #[must_use]
     pub fn distances(&self, among: &[u32]) -> DistanceMatrix {
         let hierarchy = self.hierarchy();
         let Sources { ranks: sources, places } = Sources::of(hierarchy, among);

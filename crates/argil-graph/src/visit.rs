@@ -37,6 +37,7 @@ pub struct SeenFrom<'g> {
 
 impl PathGraph {
     /// The steps that paths from `start` may take, for petgraph's algorithms.
+    #[must_use]
     pub fn seen_from(&self, start: u32) -> SeenFrom<'_> {
         SeenFrom { graph: self, start }
     }

@@ -31,21 +31,25 @@ impl fmt::Debug for Field {
 
 impl Field {
     /// A body given by a function of one's own.
+    #[must_use]
     pub fn new(distance: impl Fn(DVec3) -> f64 + Send + Sync + 'static) -> Self {
         Self { distance: Arc::new(distance) }
     }
 
     /// Nothing at all: the neutral element of [`Field::union`].
+    #[must_use]
     pub fn empty() -> Self {
         Self::new(|_| f64::INFINITY)
     }
 
     /// Signed distance of a point to the surface, mm; negative inside.
+    #[must_use]
     pub fn distance(&self, point: DVec3) -> f64 {
         (self.distance)(point)
     }
 
     /// A ball.
+    #[must_use]
     pub fn sphere(centre: DVec3, radius: f64) -> Self {
         Self::new(move |p| p.distance(centre) - radius)
     }
@@ -54,6 +58,7 @@ impl Field {
     ///
     /// The radius runs linearly along the axis, so a rod that tapers is a little thicker across its surface than the
     /// exact distance would have it: less than 2 % up to a taper of 0.2 mm a mm.
+    #[must_use]
     pub fn rod(from: (DVec3, f64), to: (DVec3, f64)) -> Self {
         let ((a, thick), (b, thin)) = (from, to);
         let axis = b - a;
@@ -65,6 +70,7 @@ impl Field {
     }
 
     /// Rods of one piece along a line of points, each with its radius.
+    #[must_use]
     pub fn limb(joints: &[(DVec3, f64)]) -> Self {
         match joints {
             [] => Self::empty(),
@@ -74,6 +80,7 @@ impl Field {
     }
 
     /// An upright cylinder over `centre` in the plane, from one height to another, mm.
+    #[must_use]
     pub fn cylinder(centre: DVec2, radius: f64, low: f64, high: f64) -> Self {
         Self::new(move |p| {
             let across = p.truncate().distance(centre) - radius;
@@ -83,6 +90,7 @@ impl Field {
     }
 
     /// A box between two corners whose edges are rounded by a radius, mm.
+    #[must_use]
     pub fn rounded_box(low: DVec3, high: DVec3, radius: f64) -> Self {
         let centre = (low + high) / 2.0;
         let half = (high - low) / 2.0 - DVec3::splat(radius);
@@ -93,6 +101,7 @@ impl Field {
     }
 
     /// An upright tube about the z axis between two radii and two heights, its edges rounded by a radius, mm.
+    #[must_use]
     pub fn tube(radii: (f64, f64), heights: (f64, f64), rounding: f64) -> Self {
         let middle = DVec2::new(radii.0 + radii.1, heights.0 + heights.1) / 2.0;
         let half = DVec2::new(radii.1 - radii.0, heights.1 - heights.0) / 2.0 - DVec2::splat(rounding);
@@ -103,6 +112,7 @@ impl Field {
     }
 
     /// A ring of round section about an axis through `centre`; `axis` need not be of unit length.
+    #[must_use]
     pub fn torus(centre: DVec3, axis: DVec3, ring: f64, section: f64) -> Self {
         let axis = axis.normalize_or(DVec3::Z);
         Self::new(move |p| {
@@ -114,6 +124,7 @@ impl Field {
     }
 
     /// Everything on the far side of a plane: below it as seen along `normal`.
+    #[must_use]
     pub fn half_space(point: DVec3, normal: DVec3) -> Self {
         let normal = normal.normalize_or(DVec3::Z);
         Self::new(move |p| (p - point).dot(normal))

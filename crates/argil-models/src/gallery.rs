@@ -35,6 +35,7 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 /// assert_eq!(argil_models::by_name("arch"), Some(argil_models::arch()));
 /// assert_eq!(argil_models::by_name("teapot"), None);
 /// ```
+#[must_use]
 pub fn by_name(name: &str) -> Option<Solid> {
     GALLERY.into_iter().find(|(known, _)| *known == name).map(|(_, make)| make())
 }
@@ -53,6 +54,7 @@ fn polar(radius: f64, angle: f64, z: f64) -> DVec3 {
 
 /// Six leaning, slightly twisted columns, tapering from 8.4 mm to 6 mm, that merge at about 60 % of the height of
 /// 40 mm: six islands on most layers, which a strand must join and a nozzle would have to hop between.
+#[must_use]
 pub fn spire() -> Solid {
     const STEPS: usize = 12;
     let body = (0..6).fold(Field::empty(), |body, k| {
@@ -72,6 +74,7 @@ pub fn spire() -> Solid {
 }
 
 /// A plate on four legs: the legs are islands, and the outline of the plate begins in mid-air between them.
+#[must_use]
 pub fn table() -> Solid {
     let plate = Field::rounded_box(DVec3::new(-17.0, -13.0, 25.0), DVec3::new(17.0, 13.0, 29.5), 1.8);
     let legs = [(-12.5, -8.5), (12.5, -8.5), (12.5, 8.5), (-12.5, 8.5)].map(|(x, y)| {
@@ -82,6 +85,7 @@ pub fn table() -> Solid {
 }
 
 /// A cup with a wall of about 4 mm, a solid floor and a handle: a hole within the outline, and an overhang at its side.
+#[must_use]
 pub fn cup() -> Solid {
     let outside = Field::rod((DVec3::Z * -11.0, 11.5), (DVec3::Z * 46.0, 16.0));
     let hollow = Field::rod((DVec3::Z * 12.0, 8.3), (DVec3::Z * 46.0, 11.9));
@@ -92,6 +96,7 @@ pub fn cup() -> Solid {
 }
 
 /// Two separate columns, one upright and one leaning: one strand must serve both without a hop.
+#[must_use]
 pub fn columns() -> Solid {
     let upright = Field::rod((DVec3::new(-9.0, 0.0, -6.0), 5.2), (DVec3::new(-9.0, 0.0, 27.0), 4.0));
     let leaning = Field::rod((DVec3::new(8.0, -4.0, -6.0), 5.2), (DVec3::new(14.0, 5.0, 23.0), 4.0));
@@ -99,6 +104,7 @@ pub fn columns() -> Solid {
 }
 
 /// An arch: two islands that grow together, with an underside that nothing supports at its crown.
+#[must_use]
 pub fn arch() -> Solid {
     let joints: Vec<(DVec3, f64)> = (0..=24)
         .map(|k| {
@@ -111,6 +117,7 @@ pub fn arch() -> Solid {
 }
 
 /// A ring within a ring and a column in the middle: islands in holes in islands.
+#[must_use]
 pub fn nested_rings() -> Solid {
     // The lower edges are rounded well below the bed.
     let ring = |inner: f64, outer: f64, top: f64| Field::tube((inner, outer), (-5.0, top), 1.2);
@@ -119,6 +126,7 @@ pub fn nested_rings() -> Solid {
 }
 
 /// A post with an arm from which a stalactite hangs: a body that begins in mid-air, where no path is below.
+#[must_use]
 pub fn hanging_island() -> Solid {
     let post = Field::rod((DVec3::new(-11.0, 0.0, -6.0), 5.4), (DVec3::new(-11.0, 0.0, 28.0), 4.2));
     let arm = Field::rod((DVec3::new(-11.0, 0.0, 28.0), 4.2), (DVec3::new(12.0, 0.0, 30.0), 3.6));
@@ -127,6 +135,7 @@ pub fn hanging_island() -> Solid {
 }
 
 /// A trunk with tapering fins and with twigs 2 mm thick: thinner than a bead of 2.5 mm, and partly than one of 1.5 mm.
+#[must_use]
 pub fn cactus() -> Solid {
     let trunk = Field::rod((DVec3::Z * -7.0, 5.6), (DVec3::Z * 24.0, 4.2));
     let fins = (0..3).fold(Field::empty(), |fins, k| {

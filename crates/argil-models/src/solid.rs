@@ -25,6 +25,7 @@ impl Solid {
     /// let bytes = table.to_stl();
     /// assert_eq!(bytes.len(), 84 + 50 * table.triangles.len());
     /// ```
+    #[must_use]
     pub fn to_stl(&self) -> Vec<u8> {
         let mut bytes = vec![0; 80];
         let name = b"argil model, millimetres";
@@ -42,16 +43,19 @@ impl Solid {
     }
 
     /// Volume in mm³; positive when the triangles face outwards.
+    #[must_use]
     pub fn volume(&self) -> f64 {
         self.corners().map(|[a, b, c]| a.dot(b.cross(c))).sum::<f64>() / 6.0
     }
 
     /// The least z of any vertex, mm; `None` without vertices.
+    #[must_use]
     pub fn lowest(&self) -> Option<f64> {
         self.vertices.iter().map(|vertex| vertex[2]).reduce(f64::min)
     }
 
     /// Vertices minus edges plus triangles: 2 for every separate body, less 2 for every handle.
+    #[must_use]
     pub fn euler_characteristic(&self) -> i64 {
         let edges = self.edges();
         self.vertices.len() as i64 - edges.len() as i64 + self.triangles.len() as i64
@@ -59,6 +63,7 @@ impl Solid {
 
     /// Whether every edge belongs to exactly two triangles that run along it in opposite directions, so that the mesh
     /// encloses a volume.
+    #[must_use]
     pub fn is_closed(&self) -> bool {
         self.edges().values().all(|&(up, down)| (up, down) == (1, 1))
     }

@@ -91,6 +91,7 @@ impl Default for CleaningStyle {
 /// assert!(page.starts_with("<!doctype html>") && page.contains("root"));
 /// assert!(!page.contains("http") && !page.contains("<script"));
 /// ```
+#[must_use]
 pub fn cleaning_html(strand: &Strand, places: &[CutPlace], style: &CleaningStyle) -> String {
     let mut page = String::new();
     let steps = steps(strand, places);

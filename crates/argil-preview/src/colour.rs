@@ -25,6 +25,7 @@ impl Colour {
     pub const DARK: Colour = Colour::new(43, 35, 32);
 
     /// The colour of three shares.
+    #[must_use]
     pub const fn new(red: u8, green: u8, blue: u8) -> Self {
         Self { red, green, blue }
     }
@@ -77,6 +78,7 @@ impl Default for Palette {
 
 impl Palette {
     /// The colour of a role.
+    #[must_use]
     pub fn of(&self, role: Role) -> Colour {
         match role {
             Role::Wall => self.wall,

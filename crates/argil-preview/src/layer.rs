@@ -65,6 +65,7 @@ impl Default for SvgStyle {
 /// assert!(svg.contains("stroke-width=\"1.5\""));
 /// assert!(svg.contains(&Palette::default().wall.to_string()));
 /// ```
+#[must_use]
 pub fn layer_svg(strand: &Strand, layer: usize, style: &SvgStyle) -> String {
     let frame = Frame::of(strand, style);
     let mut picture = Picture { svg: String::new(), strand, style, frame };

@@ -76,6 +76,7 @@ impl Default for ViewStyle {
 /// let svg = overview_svg(&strand, &ViewStyle { title: Some("a < b".into()), ..ViewStyle::default() });
 /// assert!(svg.starts_with("<svg") && svg.contains("<title>a &lt; b</title>"));
 /// ```
+#[must_use]
 pub fn overview_svg(strand: &Strand, style: &ViewStyle) -> String {
     View::new(strand, style).draw()
 }

@@ -109,6 +109,7 @@ impl Default for PageStyle {
 /// assert!(page.starts_with("<!doctype html>") && page.contains("\"marks\":[[0,0,4.5,4.5,2.5,0]]"));
 /// assert!(!page.contains("http"));
 /// ```
+#[must_use]
 pub fn page_html(strand: &Strand, style: &PageStyle) -> String {
     let outline = Outline::new(strand, style.most_moves);
     let mut page = String::new();

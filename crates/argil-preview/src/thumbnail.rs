@@ -20,6 +20,7 @@ const LINE: usize = 78;
 /// assert_eq!(lines[1].rsplit(' ').next(), Some(letters.to_string().as_str()));
 /// # Ok::<(), argil_preview::PreviewError>(())
 /// ```
+#[must_use]
 pub fn thumbnail(png: &[u8]) -> Vec<String> {
     // Signature, then the length and name of the first chunk, which holds width and height.
     let side = |at: usize| {

@@ -31,6 +31,7 @@ pub enum Fact<T> {
 
 impl<T> Fact<T> {
     /// The value, if it is known.
+    #[must_use]
     pub fn value(&self) -> Option<&T> {
         match self {
             Self::Known { value, .. } => Some(value),
@@ -39,6 +40,7 @@ impl<T> Fact<T> {
     }
 
     /// Why the value is unknown, if it is.
+    #[must_use]
     pub fn unknown(&self) -> Option<&str> {
         match self {
             Self::Known { .. } => None,
@@ -47,6 +49,7 @@ impl<T> Fact<T> {
     }
 
     /// Where it comes from and what has to be known about it, if it is known.
+    #[must_use]
     pub fn origin(&self) -> Option<(&str, Option<&str>)> {
         match self {
             Self::Known { source, note, .. } => Some((source, note.as_deref())),

@@ -8,6 +8,7 @@ use crate::fact::within;
 use crate::{Fact, ProfileError};
 
 /// The bundled materials, as name and TOML, by name.
+#[must_use]
 pub fn materials() -> &'static [(&'static str, &'static str)] {
     &[
         ("concrete", include_str!("../materials/concrete.toml")),
@@ -66,6 +67,7 @@ impl Material {
     ///
     /// # Errors
     /// None with the profiles as they are, which tests hold.
+    #[must_use]
     pub fn bundled(name: &str) -> Option<Result<Self, ProfileError>> {
         let (_, text) = materials().iter().find(|(known, _)| *known == name)?;
         Some(Self::from_toml(text))
@@ -79,6 +81,7 @@ impl Material {
     /// assert!((laguna.across(1.5, 0.5).unwrap() - 0.3).abs() < 1e-3);
     /// # Ok::<(), argil_printers::ProfileError>(())
     /// ```
+    #[must_use]
     pub fn across(&self, width: f64, height: f64) -> Option<f64> {
         self.overhang.value().map(|degrees| degrees.to_radians().tan() * height / width)
     }

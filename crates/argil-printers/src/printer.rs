@@ -8,6 +8,7 @@ use crate::fact::within;
 use crate::{Fact, ProfileError};
 
 /// The bundled printers, as name and TOML, by name.
+#[must_use]
 pub fn printers() -> &'static [(&'static str, &'static str)] {
     &[
         ("eazao-m500", include_str!("../printers/eazao-m500.toml")),
@@ -153,12 +154,14 @@ impl Printer {
     ///
     /// # Errors
     /// None with the profiles as they are, which tests hold.
+    #[must_use]
     pub fn bundled(name: &str) -> Option<Result<Self, ProfileError>> {
         let (_, text) = printers().iter().find(|(known, _)| *known == name)?;
         Some(Self::from_toml(text))
     }
 
     /// The middle of the bed, if it is known.
+    #[must_use]
     pub fn middle(&self) -> Option<[f64; 2]> {
         let told = self.middle.as_ref().and_then(Fact::value).copied();
         told.or_else(|| self.middle_of_volume())
@@ -173,6 +176,7 @@ impl Printer {
     }
 
     /// Whether a box from `low` to `high` lies in the printer's space; `None` if that is not known.
+    #[must_use]
     pub fn reaches(&self, low: [f64; 3], high: [f64; 3]) -> Option<bool> {
         let ([mx, my], volume) = (self.middle()?, self.volume.value()?);
         let far = |k: usize, middle: f64| (low[k] - middle).abs().max((high[k] - middle).abs());

@@ -52,4 +52,12 @@ pub enum RouteError {
         /// A point of the part that is cut off.
         at: DVec2,
     },
+    /// A solver of tours gave what is no order of all stops.
+    #[error("a tour through {stops} stops does not visit each of them once")]
+    Tour {
+        /// How many stops there are.
+        stops: usize,
+        /// What the solver gave.
+        order: Vec<usize>,
+    },
 }

@@ -11,7 +11,7 @@ use crate::lane::draw;
 use crate::multigraph::Multigraph;
 use crate::region_plan::{Cut, RegionPlan, RegionView};
 use crate::spine::spines;
-use crate::{Region, RouteError, RouteSettings, regions};
+use crate::{Region, RouteError, RouteSettings, ShortestTours, Tours, regions};
 
 /// How far attachments keep from where a wall turns off into a spine, in w: a strand that came from inside and went on
 /// along the spine would be told from one that goes through the wall by the length of wall between.
@@ -74,6 +74,17 @@ impl Router {
     /// # Complexity
     /// Dominated by the distances in each region's graph, about O(T · V) for T stops and V vertices.
     pub fn cycle(&self, layer: &LayerInput<'_>) -> Result<Cycle, RouteError> {
+        self.cycle_with(layer, &ShortestTours)
+    }
+
+    /// One closed cycle through all walls and demands, by tours of another solver; [`Tours`] has an example.
+    ///
+    /// # Errors
+    /// See [`RouteError`]; [`RouteError::Tour`] where an order is not one of all stops.
+    ///
+    /// # Complexity
+    /// That of [`cycle`](Self::cycle), and what the solver takes for some four tours a region.
+    pub fn cycle_with(&self, layer: &LayerInput<'_>, tours: &dyn Tours) -> Result<Cycle, RouteError> {
         let s = &self.settings;
         let curves = curves(layer.walls)?;
         if curves.is_empty() && layer.demands.is_empty() {
@@ -98,7 +109,7 @@ impl Router {
                 continue;
             }
             let own: Vec<DVec2> = region.demands.iter().map(|&d| positions[d]).collect();
-            let view = self.view(layer, &curves, &region, &own);
+            let view = self.view((layer, tours), &curves, &region, &own);
             plans.push((region.clone(), view.plan(&own, &mut attachments)?));
         }
         self.assemble(layer, &curves, &plans)
@@ -106,7 +117,7 @@ impl Router {
 
     fn view<'a>(
         &'a self,
-        layer: &LayerInput<'a>,
+        (layer, solver): (&LayerInput<'a>, &'a dyn Tours),
         curves: &'a [ClosedCurve],
         region: &'a Region,
         demands: &[DVec2],
@@ -118,6 +129,7 @@ impl Router {
         let index = SegmentIndex::of_curves(walls.iter().map(|&w| &curves[w]), s.width);
         let mut view = RegionView {
             settings: s,
+            solver,
             region,
             curves,
             walls,

@@ -38,6 +38,11 @@ mod round_tour;
 mod settings;
 mod spine;
 mod spliced;
+mod tours;
+
+pub use argil_graph as graph;
+pub use argil_tour as tour;
+pub use argil_tour::{Metric, TourOptions};
 
 pub use cycle::{Cycle, Leg};
 pub use error::RouteError;
@@ -45,3 +50,4 @@ pub use layer::{Demand, LayerInput, Router, Wall};
 pub use region::{Region, regions};
 pub use settings::RouteSettings;
 pub use spliced::SplicedRouter;
+pub use tours::{ShortestTours, TourDistances, Tours};

@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use argil_curve::{ClosedCurve, DVec2, SegmentIndex};
 use argil_graph::{DistanceMatrix, FreeSpace, Nodes, PathFinder, PathGraph};
-use argil_tour::{Metric, shortest_tour};
 #[cfg(feature = "rayon")]
 use rayon::prelude::*;
 
@@ -14,11 +13,13 @@ use crate::discs::Discs;
 use crate::excursion::{Excursion, Stops};
 use crate::joint::{Reuse, join_walls};
 use crate::round_tour::{meeting_places, taken_along};
+use crate::tours::{TourDistances, Tours};
 use crate::{Region, RouteError, RouteSettings};
 
 /// What one region sees of its layer.
 pub(crate) struct RegionView<'a> {
     pub(crate) settings: &'a RouteSettings,
+    pub(crate) solver: &'a dyn Tours,
     pub(crate) region: &'a Region,
     /// All walls of the layer.
     pub(crate) curves: &'a [ClosedCurve],
@@ -87,30 +88,6 @@ struct Sketch {
     round: bool,
     /// Whether the stops of each tour are in an order to begin the search from.
     ordered: bool,
-}
-
-/// Distances among the stops of one tour, row by row.
-struct Among {
-    count: usize,
-    lengths: Vec<f64>,
-}
-
-impl Among {
-    fn new(distances: &DistanceMatrix, stops: &[usize]) -> Self {
-        let lengths = stops.iter().flat_map(|&a| stops.iter().map(move |&b| distances.get(a, b))).collect();
-        Self { count: stops.len(), lengths }
-    }
-}
-
-impl Metric for Among {
-    fn nodes(&self) -> usize {
-        self.count
-    }
-
-    #[inline]
-    fn distance(&self, a: usize, b: usize) -> f64 {
-        self.lengths[a * self.count + b]
-    }
 }
 
 impl RegionView<'_> {
@@ -317,7 +294,7 @@ impl RegionView<'_> {
             root_cost: s.root_cost * s.width,
         };
         let met: Vec<usize> = (demands.len()..among.len()).collect();
-        let order = shortest_tour(&Among::new(&distances, &met), &[], None, &s.tour).order;
+        let (order, _) = TourDistances::new(&distances, &met).toured(self.solver, None, &s.tour)?;
         let mut round: Vec<usize> = order.into_iter().map(|k| met[k]).collect();
         let excursions = taken_along(&mut round, stops.excursions(), &stops, s.ring_cost);
         let stop = |k: usize| match k.checked_sub(demands.len()) {
@@ -348,23 +325,26 @@ impl RegionView<'_> {
                 .collect();
             let start: Vec<usize> = (0..nodes.len()).collect();
             let start = sketch.ordered.then_some(start.as_slice());
-            let tour = shortest_tour(&Among::new(&distances, &nodes), &[], start, &s.tour);
-            *stops = tour.order.iter().map(|&k| stops[k]).collect();
-            let stops = tour.order.iter().map(|&k| among[nodes[k]]).collect();
-            (tour.length, Tour { stops, leg: if serves { Leg::Support } else { Leg::Joint } })
+            let (order, length) =
+                TourDistances::new(&distances, &nodes).toured(self.solver, start, &s.tour)?;
+            *stops = order.iter().map(|&k| stops[k]).collect();
+            let stops = order.iter().map(|&k| among[nodes[k]]).collect();
+            Ok((length, Tour { stops, leg: if serves { Leg::Support } else { Leg::Joint } }))
         };
         let mut tours = std::mem::take(&mut sketch.tours);
         #[cfg(feature = "rayon")]
-        let drawn: Vec<_> = tours.par_iter_mut().map(tour).collect();
+        let drawn: Vec<Result<_, RouteError>> = tours.par_iter_mut().map(tour).collect();
         #[cfg(not(feature = "rayon"))]
-        let drawn: Vec<_> = tours.iter_mut().map(tour).collect();
+        let drawn: Vec<Result<_, RouteError>> = tours.iter_mut().map(tour).collect();
+        // The first that fails, whatever thread was first.
+        let drawn = drawn.into_iter().collect::<Result<Vec<_>, _>>()?;
         sketch.tours = tours;
         sketch.ordered = true;
         // What a tour through all walls is longer for the demands that it takes along.
         let mut detour = 0.0;
         if let (true, Some((length, _))) = (sketch.round, drawn.first()) {
             let walls: Vec<usize> = (0..self.walls.len()).collect();
-            let bare = shortest_tour(&Among::new(&distances, &walls), &[], None, &s.tour).length;
+            let (_, bare) = TourDistances::new(&distances, &walls).toured(self.solver, None, &s.tour)?;
             detour = (length - bare).max(0.0);
         }
         let mut cost = s.root_cost * s.width * cuts.len() as f64 + (s.ring_cost - 1.0) * detour;

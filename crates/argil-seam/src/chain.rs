@@ -28,6 +28,7 @@ pub struct SeamSettings {
 
 impl SeamSettings {
     /// For a bead of width `w` mm of the paper's clay.
+    #[must_use]
     pub fn for_width(w: f64) -> Self {
         Self { across: 0.3 * w, reach: 0.73 * w, spacing: w / 6.0, sharp: 0.25 * w * w }
     }

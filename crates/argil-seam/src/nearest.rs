@@ -20,6 +20,7 @@ use argil_curve::ClosedCurve;
 /// assert_eq!(nearest_chain(&[bar(0.5)?, bar(0.0)?]), [0.0, 0.0]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+#[must_use]
 pub fn nearest_chain(cycles: &[ClosedCurve]) -> Vec<f64> {
     let mut starts = vec![0.0; cycles.len()];
     for k in (1..cycles.len()).rev() {

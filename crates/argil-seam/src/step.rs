@@ -33,6 +33,7 @@ pub(crate) fn sharp_turns(arriving: DVec2, step: DVec2, leaving: DVec2) -> u8 {
 ///
 /// # Complexity
 /// O(n) for n segments.
+#[must_use]
 pub fn is_clear(step: &Segment, s: f64, cycle: &ClosedCurve) -> bool {
     let low = step.start.min(step.end) - TOUCH;
     let high = step.start.max(step.end) + TOUCH;

@@ -19,6 +19,7 @@ mod fit;
 mod further;
 mod gaps;
 mod layer;
+mod loops;
 mod mitre;
 mod openings;
 mod pruning;

@@ -31,6 +31,7 @@ impl BeadShape {
     /// Area of the cross-section in mm² of a bead of the given width and height in mm.
     ///
     /// Zero when either is not a positive number, since no bead is laid then.
+    #[must_use]
     pub fn area(self, width: f64, height: f64) -> f64 {
         if !(width > 0.0 && height > 0.0) {
             return 0.0;

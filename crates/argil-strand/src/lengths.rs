@@ -11,21 +11,25 @@ pub struct RoleLengths {
 
 impl RoleLengths {
     /// Length in mm laid in one role.
+    #[must_use]
     pub fn of(&self, role: Role) -> f64 {
         self.by_role[role.position()]
     }
 
     /// Length in mm over all roles.
+    #[must_use]
     pub fn total(&self) -> f64 {
         self.by_role.iter().sum()
     }
 
     /// Length in mm of what stays in the part.
+    #[must_use]
     pub fn model(&self) -> f64 {
         Role::ALL.into_iter().filter(|role| role.is_model()).map(|role| self.of(role)).sum()
     }
 
     /// Length in mm of what is cut away after printing.
+    #[must_use]
     pub fn non_model(&self) -> f64 {
         Role::ALL.into_iter().filter(|role| !role.is_model()).map(|role| self.of(role)).sum()
     }

@@ -31,6 +31,7 @@ impl Role {
     /// ```
     /// assert_eq!(argil_strand::Role::Wall.name(), "wall");
     /// ```
+    #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Role::Wall => "wall",
@@ -42,6 +43,7 @@ impl Role {
     }
 
     /// Whether the bead stays in the part: walls and fill do, all else is cut away after printing.
+    #[must_use]
     pub const fn is_model(self) -> bool {
         matches!(self, Role::Wall | Role::Fill)
     }

@@ -130,6 +130,7 @@ pub struct Step {
 
 impl Step {
     /// Length in space, mm; a seam step's rise counts.
+    #[must_use]
     pub fn length(&self) -> f64 {
         self.from.distance(self.to)
     }
@@ -192,32 +193,38 @@ impl Strand {
     }
 
     /// Where the strand begins, mm: the first point of the lowest layer.
+    #[must_use]
     pub fn start(&self) -> DVec2 {
         self.start
     }
 
     /// Where the strand ends, mm: the last point of the uppermost layer.
+    #[must_use]
     pub fn end(&self) -> DVec2 {
         self.layers.last().and_then(|layer| layer.moves.last()).map_or(self.start, |last| last.to)
     }
 
     /// The layers, lowest first.
+    #[must_use]
     pub fn layers(&self) -> &[StrandLayer] {
         &self.layers
     }
 
     /// The layers, without copying them.
+    #[must_use]
     pub fn into_layers(self) -> Vec<StrandLayer> {
         self.layers
     }
 
     /// Where the cycle of a layer begins and ends, mm: its seam. `None` above the uppermost layer.
+    #[must_use]
     pub fn seam(&self, layer: usize) -> Option<DVec2> {
         let moves = &self.layers.get(layer)?.moves;
         if layer == 0 { Some(self.start) } else { moves.first().map(|step| step.to) }
     }
 
     /// The moves of a layer's cycle, without the seam step that leads to it. Empty above the uppermost layer.
+    #[must_use]
     pub fn cycle(&self, layer: usize) -> &[Move] {
         let moves = self.layers.get(layer).map_or(&[][..], |layer| &layer.moves);
         if layer == 0 { moves } else { moves.get(1..).unwrap_or(&[]) }
@@ -228,6 +235,7 @@ impl Strand {
     ///
     /// # Complexity
     /// O(n) in the number of the layer's moves.
+    #[must_use]
     pub fn polyline(&self, layer: usize) -> Vec<DVec2> {
         self.seam(layer).into_iter().chain(self.cycle(layer).iter().map(|step| step.to)).collect()
     }
@@ -262,16 +270,19 @@ impl Strand {
     }
 
     /// Length of the whole strand, mm, in space: the rise of seam steps counts.
+    #[must_use]
     pub fn length(&self) -> f64 {
         self.lengths().total()
     }
 
     /// Length laid in one role, mm.
+    #[must_use]
     pub fn length_of(&self, role: Role) -> f64 {
         self.lengths().of(role)
     }
 
     /// Length laid in each role, mm.
+    #[must_use]
     pub fn lengths(&self) -> RoleLengths {
         let mut lengths = RoleLengths::default();
         self.steps().for_each(|step| lengths.add(step.role, step.length()));
@@ -279,11 +290,13 @@ impl Strand {
     }
 
     /// Paste in the strand, mm³, with rounded beads.
+    #[must_use]
     pub fn volume(&self) -> f64 {
         self.volume_as(BeadShape::Rounded)
     }
 
     /// Paste in the strand, mm³, with beads of the given shape.
+    #[must_use]
     pub fn volume_as(&self, shape: BeadShape) -> f64 {
         let area: Vec<f64> = self.layers.iter().map(|layer| shape.area(layer.width, layer.height)).collect();
         self.steps().map(|step| step.length() * area[step.layer]).sum()
@@ -293,6 +306,7 @@ impl Strand {
     ///
     /// # Complexity
     /// O(n) in the number of moves, for all layers together.
+    #[must_use]
     pub fn summaries(&self) -> Vec<LayerSummary> {
         let mut summaries: Vec<LayerSummary> = self
             .layers

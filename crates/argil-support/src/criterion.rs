@@ -18,6 +18,7 @@ pub struct Criterion {
 
 impl Criterion {
     /// The paper's values for its clay and a bead of width `w` mm: `ε_across` = 0.3 w, `ε_along` = 1.6 w.
+    #[must_use]
     pub fn for_width(w: f64) -> Self {
         Self { across: 0.3 * w, along: 1.6 * w }
     }
@@ -57,6 +58,7 @@ impl Default for Criterion {
 /// assert!((hanging[0].start - 9.5).abs() < 1e-9 && (hanging[0].length - 8.0).abs() < 1e-9);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+#[must_use]
 pub fn unsupported_spans(above: &ClosedCurve, below: &SegmentIndex, criterion: &Criterion) -> Vec<ArcSpan> {
     let held = held_spans(above, below, criterion.across);
     let mut hanging = gaps(above.length(), &held);

@@ -60,6 +60,7 @@ pub struct SupportPoint {
 /// assert!(unsupported_spans(&square, &below, &Criterion::for_width(1.5)).is_empty());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+#[must_use]
 pub fn place_supports(above: &ClosedCurve, walls: &SegmentIndex, placement: &Placement) -> Vec<SupportPoint> {
     if !placement.is_usable() {
         return Vec::new();

@@ -64,16 +64,19 @@ pub struct Placement {
 
 impl Placement {
     /// The paper's clay at a bead of width `w` mm.
+    #[must_use]
     pub fn for_width(w: f64) -> Self {
         Self::for_criterion(w, &Criterion::for_width(w))
     }
 
     /// For a bead of width `w` mm of some paste, with a slack of 0.65 `ε_across`.
+    #[must_use]
     pub fn for_criterion(w: f64, criterion: &Criterion) -> Self {
         Self::with_slack(w, criterion, SLACK * criterion.across)
     }
 
     /// For a path below that keeps within `slack` mm of the needs, which is brought between 0 and `ε_across`.
+    #[must_use]
     pub fn with_slack(w: f64, criterion: &Criterion, slack: f64) -> Self {
         let slack = slack.min(criterion.across).max(0.0);
         let cover = criterion.across - slack;

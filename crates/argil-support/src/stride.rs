@@ -31,6 +31,7 @@ const SHORTEST_STRIDE: f64 = 1e-6;
 /// assert_eq!(points.len(), 4);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+#[must_use]
 pub fn stride_supports(
     above: &ClosedCurve,
     walls: &SegmentIndex,

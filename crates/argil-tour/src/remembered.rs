@@ -16,14 +16,14 @@ const NOTHING: u64 = u64::MAX;
 /// Some distances with the pairs that they are between. A pair has one place, and what comes later takes it over.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Memory {
-    slots: Vec<Cell<(u64, f64)>>,
+    slots: Vec<(u64, f64)>,
 }
 
 impl Memory {
     /// Forgets everything, for another metric.
     pub(crate) fn clear(&mut self) {
         self.slots.clear();
-        self.slots.resize(1 << SLOTS_LOG2, Cell::new((NOTHING, 0.0)));
+        self.slots.resize(1 << SLOTS_LOG2, (NOTHING, 0.0));
     }
 }
 
@@ -33,13 +33,15 @@ impl Memory {
 #[derive(Debug)]
 pub(crate) struct Remembered<'a, M> {
     metric: &'a M,
-    memory: &'a Memory,
+    slots: &'a [Cell<(u64, f64)>],
 }
 
 impl<'a, M: Metric> Remembered<'a, M> {
     /// The memory must have been cleared since it was used for another metric.
-    pub(crate) fn new(metric: &'a M, memory: &'a Memory) -> Self {
-        Self { metric, memory }
+    ///
+    /// Cells are made here alone, so that a solver with its memory can be shared by threads.
+    pub(crate) fn new(metric: &'a M, memory: &'a mut Memory) -> Self {
+        Self { metric, slots: Cell::from_mut(memory.slots.as_mut_slice()).as_slice_of_cells() }
     }
 }
 
@@ -54,7 +56,7 @@ impl<M: Metric> Metric for Remembered<'_, M> {
         let key = (low as u64) << 32 | high as u64;
         // The golden ratio, by which Knuth multiplies; the high bits of the product depend on all of the key's.
         let place = key.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> (u64::BITS - SLOTS_LOG2);
-        let Some(slot) = self.memory.slots.get(place as usize) else {
+        let Some(slot) = self.slots.get(place as usize) else {
             return self.metric.distance(low, high);
         };
         let (known, distance) = slot.get();
@@ -89,7 +91,7 @@ mod tests {
         let counted = Counted(Cell::new(0));
         let mut memory = Memory::default();
         memory.clear();
-        let remembered = Remembered::new(&counted, &memory);
+        let remembered = Remembered::new(&counted, &mut memory);
         for round in 0..2_usize {
             for a in (0..3000_usize).step_by(7) {
                 for b in (0..3000_usize).step_by(11) {

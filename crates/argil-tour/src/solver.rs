@@ -80,7 +80,7 @@ impl TourSolver {
         } else {
             let mut memory = std::mem::take(&mut self.memory);
             memory.clear();
-            self.search(&Remembered::new(metric, &memory), candidates, start, options);
+            self.search(&Remembered::new(metric, &mut memory), candidates, start, options);
             self.memory = memory;
         }
         Tour::canonical(&self.nodes.order, |a, b| metric.distance(a as usize, b as usize))

@@ -38,6 +38,9 @@ pub enum PlanError {
     /// The joined strand is not one polyline.
     #[error("the strand is broken: {0}")]
     Strand(#[from] argil_strand::StrandError),
+    /// The observer has ended the plan.
+    #[error("the plan was cancelled")]
+    Cancelled,
 }
 
 /// What went wrong in a layer.

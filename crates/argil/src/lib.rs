@@ -38,6 +38,7 @@ mod planner;
 mod settings;
 pub mod stages;
 mod starts;
+mod watch;
 
 pub use argil_curve as curve;
 pub use argil_elastic as elastic;
@@ -45,6 +46,7 @@ pub use argil_fill as fill;
 pub use argil_gcode as gcode;
 pub use argil_mesh as mesh;
 pub use argil_route as route;
+pub use argil_route::{graph, tour};
 pub use argil_safeguard as safeguard;
 pub use argil_seam as seam;
 pub use argil_skin as skin;

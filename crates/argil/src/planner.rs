@@ -1,5 +1,7 @@
 //! The planner: the stages in their order.
 
+use std::ops::ControlFlow;
+
 use argil_mesh::Mesh;
 use argil_slice::{Layer, outer_walls};
 
@@ -10,6 +12,7 @@ use crate::stages::{
     BestChain, ElasticCurve, Excursions, FewestPoints, PlaneSlices, PulledTaut, Route, Safeguard, Seam,
     Slice, SlopedSafeguard, Smooth, Support, Tauten,
 };
+use crate::watch::{Watch, Watched};
 use crate::{Plan, PlanError, Settings, StageTimes};
 
 /// How far a plan has come.
@@ -21,6 +24,11 @@ pub enum Progress {
         /// How many.
         layers: usize,
     },
+    /// A cycle is sought for the next layer: the top one at first, then the one below that which was planned last; or for the same
+    /// one again, where the cycle before was not sound.
+    Routing,
+    /// A cycle is found; it is smoothed, checked and pulled taut next.
+    Smoothing,
     /// A layer is planned; they come from the top down.
     Layer {
         /// Its index, 0 at the bottom.
@@ -120,10 +128,43 @@ impl<S: Slice, G: Safeguard, U: Support, R: Route, E: Smooth, T: Tauten, C: Seam
         settings: &Settings,
         observe: &mut dyn FnMut(Progress),
     ) -> Result<Plan, PlanError> {
+        self.plan_controlled(mesh, settings, &mut |progress| {
+            observe(progress);
+            ControlFlow::Continue(())
+        })
+    }
+
+    /// One strand for a mesh, for as long as `observe` wants it to go on. It is asked between stages and between layers, and in
+    /// each layer before a cycle is sought and before it is smoothed.
+    ///
+    /// # Errors
+    /// [`PlanError::Cancelled`] when it breaks off; else see [`PlanError`]. The planner can be used again in either case.
+    ///
+    /// # Example
+    /// ```
+    /// use std::ops::ControlFlow;
+    /// use argil::{PlanError, Planner, Progress, Settings};
+    ///
+    /// let mesh = argil::mesh::read_stl(&argil_models::by_name("columns").expect("bundled").to_stl())?;
+    /// let mut first_cycle = |progress| match progress {
+    ///     Progress::Smoothing => ControlFlow::Break(()),
+    ///     _ => ControlFlow::Continue(()),
+    /// };
+    /// let outcome = Planner::default().plan_controlled(&mesh, &Settings::for_width(2.0), &mut first_cycle);
+    /// assert!(matches!(outcome, Err(PlanError::Cancelled)));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn plan_controlled(
+        &mut self,
+        mesh: &Mesh,
+        settings: &Settings,
+        observe: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+    ) -> Result<Plan, PlanError> {
         let mut times = StageTimes::default();
         let layers = timed(&mut times.slice, || self.slices(mesh, settings))?;
-        observe(Progress::Sliced { layers: layers.len() });
-        self.plan_from(&layers, settings, times, observe)
+        let watch = Watch::new(observe);
+        watch.tell(Progress::Sliced { layers: layers.len() });
+        self.plan_from(&layers, settings, times, &watch)
     }
 
     /// One strand for layers that come from elsewhere, bottom first.
@@ -131,8 +172,22 @@ impl<S: Slice, G: Safeguard, U: Support, R: Route, E: Smooth, T: Tauten, C: Seam
     /// # Errors
     /// See [`PlanError`].
     pub fn plan_layers(&mut self, layers: &[Layer], settings: &Settings) -> Result<Plan, PlanError> {
+        self.plan_layers_controlled(layers, settings, &mut |_| ControlFlow::Continue(()))
+    }
+
+    /// One strand for layers that come from elsewhere, bottom first, for as long as `observe` wants it to go on; see
+    /// [`plan_controlled`](Self::plan_controlled).
+    ///
+    /// # Errors
+    /// [`PlanError::Cancelled`] when it breaks off; else see [`PlanError`].
+    pub fn plan_layers_controlled(
+        &mut self,
+        layers: &[Layer],
+        settings: &Settings,
+        observe: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+    ) -> Result<Plan, PlanError> {
         settings.check()?;
-        self.plan_from(layers, settings, StageTimes::default(), &mut |_| {})
+        self.plan_from(layers, settings, StageTimes::default(), &Watch::new(observe))
     }
 
     fn plan_from(
@@ -140,23 +195,30 @@ impl<S: Slice, G: Safeguard, U: Support, R: Route, E: Smooth, T: Tauten, C: Seam
         layers: &[Layer],
         settings: &Settings,
         mut times: StageTimes,
-        observe: &mut dyn FnMut(Progress),
+        watch: &Watch<'_>,
     ) -> Result<Plan, PlanError> {
+        watch.check()?;
         let walls = layers.iter().map(wall_curves).collect::<Result<Vec<_>, _>>()?;
         let models = timed(&mut times.fill, || model(layers, settings))?;
         let outer: Vec<_> = layers.iter().map(outer_walls).collect();
         let safeguards = timed(&mut times.safeguard, || self.safeguard.regions(&outer, settings));
-        let planned = Descent {
+        let descended = Descent {
             settings,
             support: &mut self.support,
-            route: &mut self.route,
-            smooth: &mut self.smooth,
+            route: &mut Watched { stage: &mut self.route, watch },
+            smooth: &mut Watched { stage: &mut self.smooth, watch },
             taut: &mut self.taut,
             times: &mut times,
             checked: self.checked,
         }
-        .run(layers, (&models, &walls), &safeguards, observe)?;
-        observe(Progress::Descended);
+        .run(layers, (&models, &walls), &safeguards, &mut |progress| {
+            watch.tell(progress);
+        });
+        // A descent that was ended fails for want of work, not for the reason that it gives.
+        watch.check()?;
+        let planned = descended?;
+        watch.tell(Progress::Descended);
+        watch.check()?;
         if planned.is_empty() {
             return Err(PlanError::Nothing);
         }

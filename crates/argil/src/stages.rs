@@ -6,7 +6,7 @@
 use argil_curve::{ClosedCurve, DVec2, SegmentIndex};
 use argil_elastic::{ElasticError, ElasticSolver, Path};
 use argil_mesh::Mesh;
-use argil_route::{Cycle, LayerInput, RouteError, Router};
+use argil_route::{Cycle, LayerInput, RouteError, Router, Tours};
 use argil_seam::{SeamError, SeamSettings};
 use argil_slice::{Layer, SliceError};
 use argil_support::SupportPoint;
@@ -121,6 +121,16 @@ pub struct Excursions;
 impl Route for Excursions {
     fn cycle(&mut self, layer: &LayerInput<'_>, settings: &Settings) -> Result<Cycle, RouteError> {
         Router::new(settings.routing())?.cycle(layer)
+    }
+}
+
+/// Excursions as [`Excursions`] makes them, by tours of another solver.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ExcursionsBy<T>(pub T);
+
+impl<T: Tours> Route for ExcursionsBy<T> {
+    fn cycle(&mut self, layer: &LayerInput<'_>, settings: &Settings) -> Result<Cycle, RouteError> {
+        Router::new(settings.routing())?.cycle_with(layer, &self.0)
     }
 }
 

@@ -1,0 +1,79 @@
+//! A layer of loops that come from elsewhere.
+
+use argil_curve::ClosedCurve;
+use geo_types::{Coord, LineString, MultiPolygon, Polygon};
+use glam::DVec2;
+
+use crate::{Layer, WallLoop};
+
+impl Layer {
+    /// The layer that another slicer's wall paths make: the lines that the middle of the bead follows, `height` mm high and printed
+    /// at `print_z`, rounded to `grid`.
+    ///
+    /// What contains what is found here, and loops are turned so that every second one inwards bounds a hole. The outline is not known
+    /// here: it is taken to be where the bead's middle goes, half a bead inside. Loops must be simple and disjoint on the grid. One
+    /// that is no closed curve is kept as it is, and a plan of the layer fails with its place.
+    ///
+    /// # Complexity
+    /// O(n · p) for n loops with p points in all.
+    ///
+    /// # Example
+    /// ```
+    /// use argil_curve::DVec2;
+    /// use argil_slice::Layer;
+    ///
+    /// let square = |half: f64| [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|c| half * DVec2::from(c)).to_vec();
+    /// let layer = Layer::of_loops(0, 0.5, 0.5, &[square(4.0), square(8.0)], 1e-4);
+    /// assert_eq!(layer.walls[0].parent, Some(1));
+    /// assert!(layer.walls[0].hole && !layer.walls[1].hole);
+    /// assert_eq!(layer.outline.0[0].interiors().len(), 1);
+    /// ```
+    #[must_use]
+    pub fn of_loops(index: usize, print_z: f64, height: f64, loops: &[Vec<DVec2>], grid: f64) -> Self {
+        let on_grid = |p: &DVec2| if grid > 0.0 { (*p / grid).round() * grid } else { *p };
+        let points: Vec<Vec<DVec2>> = loops.iter().map(|l| l.iter().map(on_grid).collect()).collect();
+        let curves: Vec<Option<ClosedCurve>> =
+            points.iter().map(|points| ClosedCurve::new(points.clone()).ok()).collect();
+        let size = |k: usize| curves[k].as_ref().map_or(0.0, |curve| curve.signed_area().abs());
+        let contains = |outer: usize, inner: usize| {
+            let (Some(around), Some(first)) = (&curves[outer], points[inner].first()) else { return false };
+            outer != inner && size(outer) > size(inner) && around.contains(*first)
+        };
+        let around: Vec<Vec<usize>> = (0..points.len())
+            .map(|inner| (0..points.len()).filter(|&outer| contains(outer, inner)).collect())
+            .collect();
+        let walls: Vec<WallLoop> = around
+            .iter()
+            .zip(points)
+            .enumerate()
+            .map(|(k, (around, mut points))| {
+                let hole = around.len() % 2 == 1;
+                if curves[k].as_ref().is_some_and(|curve| (curve.signed_area() < 0.0) != hole) {
+                    points.reverse();
+                }
+                let parent = around.iter().copied().min_by(|&a, &b| size(a).total_cmp(&size(b)));
+                WallLoop { points, parent, depth: around.len(), wall: 0, hole, thin: false }
+            })
+            .collect();
+        let outline = solid(&walls);
+        Self {
+            index,
+            cut_z: print_z - 0.5 * height,
+            print_z,
+            walled: outline.clone(),
+            outline,
+            walls,
+            losses: Vec::new(),
+        }
+    }
+}
+
+/// What lies inside walls that bound no hole, without the holes directly inside them.
+fn solid(walls: &[WallLoop]) -> MultiPolygon<f64> {
+    let ring = |wall: &WallLoop| LineString(wall.points.iter().map(|p| Coord { x: p.x, y: p.y }).collect());
+    let polygon = |(k, wall): (usize, &WallLoop)| {
+        let holes = walls.iter().filter(|inner| inner.parent == Some(k));
+        Polygon::new(ring(wall), holes.map(ring).collect())
+    };
+    MultiPolygon(walls.iter().enumerate().filter(|(_, wall)| !wall.hole).map(polygon).collect())
+}
