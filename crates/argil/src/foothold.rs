@@ -98,7 +98,7 @@ pub(crate) fn foothold(
         let far = |place: &Foothold, hanging: f64| {
             shut(place) + toward.map_or(hanging, |wall| wall.distance(place.at))
         };
-        best(false, short, &far).or_else(|| best(false, long, &far)).map(|place| Foothold { toward, ..place })
+        best(false, long, &far).map(|place| Foothold { toward, ..place })
     };
     let hangs = |_: &Foothold, hanging: f64| hanging;
     best(true, short, &hangs).or_else(|| best(true, long, &hangs)).or_else(trapped)
