@@ -36,6 +36,8 @@ pub(crate) struct Stops<'a> {
     pub(crate) bound: &'a [bool],
     /// What a root costs, mm.
     pub(crate) root_cost: f64,
+    /// What the square of an excursion's length costs, 1/mm.
+    pub(crate) length_cost: f64,
 }
 
 impl Stops<'_> {
@@ -43,7 +45,8 @@ impl Stops<'_> {
     /// than the way from its last stop to its first.
     fn cost(&self, first: usize, last: usize, wall: usize, length: f64) -> f64 {
         let legs = self.to_wall[first][wall] + self.to_wall[last][wall];
-        length + legs.max(self.distances.get(first, last)) + self.root_cost
+        let whole = length + legs.max(self.distances.get(first, last));
+        whole + self.length_cost * whole * whole + self.root_cost
     }
 
     /// What an excursion costs by itself.

@@ -185,8 +185,13 @@ impl RegionView<'_> {
         }
         reach.extend(to_wall);
         let bound: Vec<bool> = (0..among.len()).map(|k| k < joints.len()).collect();
-        let stops =
-            Stops { distances: &distances, to_wall: &reach, bound: &bound, root_cost: s.root_cost * s.width };
+        let stops = Stops {
+            distances: &distances,
+            to_wall: &reach,
+            bound: &bound,
+            root_cost: s.root_cost * s.width,
+            length_cost: s.length_cost / s.width,
+        };
         let mut excursions = stops.excursions();
         excursions.sort_by_key(|e| e.stops.len());
         let at = |k: usize| if k < joints.len() { cuts[k].at } else { demands[k - joints.len()] };
@@ -292,6 +297,7 @@ impl RegionView<'_> {
             to_wall: &to_wall,
             bound: &bound,
             root_cost: s.root_cost * s.width,
+            length_cost: s.length_cost / s.width,
         };
         let met: Vec<usize> = (demands.len()..among.len()).collect();
         let (order, _) = TourDistances::new(&distances, &met).toured(self.solver, None, &s.tour)?;

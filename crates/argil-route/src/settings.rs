@@ -20,6 +20,9 @@ pub struct RouteSettings {
     /// What a root costs, in w of strand: two legs whose first half bead lies in the wall's own bead, the
     /// scar that they leave, and the U-turn at the far end. Fewer and longer excursions with a higher value.
     pub root_cost: f64,
+    /// What the square of an excursion's length costs beside the length, in 1/w: a long one has one tip to die from as a short one
+    /// has, and lives as many layers longer. Excursions are shorter and more with a higher value.
+    pub length_cost: f64,
     /// How many times its length the detour of a tour through all walls counts that it makes for demands: it has no tip to
     /// die from, so that it lives on through the layers below. With 1 a cup kept rings of half its own length between its walls,
     /// with 2 a sixth of it in excursions that soon die.
@@ -60,6 +63,7 @@ impl RouteSettings {
             coherence: 0.9,
             wall_penalty: 2.0,
             root_cost: 2.5,
+            length_cost: 0.015,
             ring_cost: 2.0,
             attachment_gap: 5.0 / 3.0,
             slack: 0.9 * 0.65 * 0.3 * width,
@@ -94,6 +98,7 @@ impl RouteSettings {
         let at_least_zero = [
             ("wall_penalty", self.wall_penalty),
             ("root_cost", self.root_cost),
+            ("length_cost", self.length_cost),
             ("ring_cost", self.ring_cost),
             ("slack", self.slack),
             ("wall_keep", self.wall_keep),

@@ -216,13 +216,18 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
             check.rounded(&mut taut, &candidate.fixed);
             let points = if self.checked && check.fault(&taut).is_some() { points } else { taut };
             let mut cycle = Cycle { points, ..candidate };
-            let mut spared = Vec::new();
+            // What holds the start above, and what leads on from it, stays as it is.
+            let kept =
+                start.iter().flat_map(|s| [Some(s.at), s.toward.and(guide.map(|g| supports[g].position))]);
+            let mut failed: Vec<DVec2> = kept.flatten().flat_map(|place| [place; 2]).collect();
             for _ in 0..BLUNTINGS {
-                let Some(mut next) = blunted(&cycle, settings.width, &spared) else { break };
+                let Some(mut next) = blunted(&cycle, settings.width, &failed) else { break };
                 check.rounded(&mut next.points, &next.fixed);
                 match check.fault(&next.points).filter(|_| self.checked) {
                     None => cycle = next,
-                    Some(Fault::Unsupported { at, .. } | Fault::Crossing { at }) => spared.extend(at),
+                    Some(Fault::Unsupported { at, .. } | Fault::Crossing { at }) => {
+                        failed.extend(scattered(at, settings.width));
+                    }
                 }
             }
             cycle
@@ -302,6 +307,17 @@ fn places(plan: &Result<Attempt, Flaw>, passages: impl Fn(&Attempt) -> Vec<DVec2
         Ok(done) => passages(done),
         Err((_, at)) => at.iter().copied().collect(),
     }
+}
+
+/// Those of the places that lie farther than a bead from all before them.
+fn scattered(places: Vec<DVec2>, width: f64) -> Vec<DVec2> {
+    let mut kept: Vec<DVec2> = Vec::new();
+    for place in places {
+        if kept.iter().all(|p| p.distance(place) > width) {
+            kept.push(place);
+        }
+    }
+    kept
 }
 
 /// Which free vertices lie outside of all walls, where strand must clear what stands further down.

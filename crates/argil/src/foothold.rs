@@ -81,15 +81,14 @@ pub(crate) fn foothold(
         (led, hanging, step, Foothold { at, arc, over_wall, toward: None })
     });
     let rated: Vec<(bool, f64, f64, Foothold)> = rated.collect();
-    let best = |led: bool, step: f64, far: &dyn Fn(&Foothold, f64) -> f64| {
+    let best = |led: bool, far: &dyn Fn(&Foothold, f64) -> f64| {
         rated
             .iter()
-            .filter(|place| place.0 == led && place.2 <= step)
+            .filter(|place| place.0 == led)
             .map(|&(_, hanging, step, place)| (far(&place, hanging), step, place))
             .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)))
             .map(|(_, _, place)| place)
     };
-    let [short, long] = [0.5, 1.0].map(|share| share * STEP * seam.reach);
     let trapped = || {
         let from = above.map_or(cycle.point_at(nearest), |(_, start)| start.at);
         let toward = wall_in_sight(from, here, below, LOOK / 0.73 * seam.reach);
@@ -98,10 +97,9 @@ pub(crate) fn foothold(
         let far = |place: &Foothold, hanging: f64| {
             shut(place) + toward.map_or(hanging, |wall| wall.distance(place.at))
         };
-        best(false, long, &far).map(|place| Foothold { toward, ..place })
+        best(false, &far).map(|place| Foothold { toward, ..place })
     };
-    let hangs = |_: &Foothold, hanging: f64| hanging;
-    best(true, short, &hangs).or_else(|| best(true, long, &hangs)).or_else(trapped)
+    best(true, &|_, hanging| hanging).or_else(trapped)
 }
 
 /// Whether a cycle may be stepped on at an arc from as far away as what holds it may be, from either side.
@@ -132,8 +130,7 @@ pub(crate) fn rechained(
     let held = HELD * seam.across;
     let hanging = |p: DVec2| below.nearest(p).map_or(0.0, |wall| (wall.distance - held).max(0.0));
     let cost = |layer: usize, p: DVec2| if layer == 0 { hanging(p).powi(2) } else { 0.0 };
-    let narrow = SeamSettings { across: held, reach: STEP * seam.reach, ..*seam };
-    let mut arcs = seam_chain_among(&cycles, &also, &narrow, &cost).ok()?;
+    let mut arcs = seam_chain_among(&cycles, &also, seam, &cost).ok()?;
     let arc = arcs.remove(0);
     let at = cycle.point_at(arc);
     let over_wall = below

@@ -56,14 +56,14 @@ pub(crate) fn opened_layers(
     }
     let (mut left_out, mut tried) = (nothing, starts.clone());
     for _ in 0..REPLANS {
-        match stack.climbed(&tried, &[levels[level].reach], false) {
+        match stack.climbed(&tried, levels[level].reach, false) {
             Ok(climbed) => return Ok(climbed),
             Err(stuck) => stuck.iter().for_each(|&k| left_out[k].push(stack.cycles[k].point_at(tried[k]))),
         }
         let Ok((next, starts)) = stack.chain(seam, &levels[level..], &left_out) else { break };
         (level, tried) = (level + next, starts);
     }
-    stack.climbed(&starts, &[levels[0].reach, longest], true).map_err(|stuck| {
+    stack.climbed(&starts, longest, true).map_err(|stuck| {
         let layer = stuck.first().copied().unwrap_or_default();
         let below = layer.checked_sub(1).map_or(DVec2::ZERO, |k| stack.cycles[k].point_at(starts[k]));
         SeamError::NoStep { layer, below, gap: stack.cycles[layer].nearest(below).distance }
@@ -155,11 +155,11 @@ impl<'a> Stack<'a> {
         Err(fault)
     }
 
-    /// The layers opened at their starts, or near them, by steps no longer than the first of the reaches that will do.
+    /// The layers opened at their starts, or near them, by steps no longer than `reach`; `anywhere`, where no place nearby will do.
     ///
     /// # Errors
     /// The layers that no step leads to.
-    fn climbed(&self, starts: &[f64], reaches: &[f64], anywhere: bool) -> Result<Vec<Opened>, Vec<usize>> {
+    fn climbed(&self, starts: &[f64], reach: f64, anywhere: bool) -> Result<Vec<Opened>, Vec<usize>> {
         let mut climbed: Vec<Opened> = Vec::with_capacity(starts.len());
         let mut stuck = Vec::new();
         for (k, (layer, &start)) in self.layers.iter().zip(starts).enumerate() {
@@ -168,7 +168,7 @@ impl<'a> Stack<'a> {
                 Some((from, _)) => {
                     let (below, sight) = (&self.cycles[k - 1], &self.sights[k]);
                     let step = Step { from: *from, below, layer, sight, settings: self.settings };
-                    let cleared = reaches.iter().find_map(|&reach| step.cleared(start, reach, anywhere));
+                    let cleared = step.cleared(start, reach, anywhere);
                     if cleared.is_none() {
                         stuck.push(k);
                     }
