@@ -20,7 +20,7 @@ const CHORD: f64 = 0.003;
 
 /// What an outline is simplified by before it is inset, in w. Scans have many more vertices than
 /// a bead can follow, and the polygon kernel's time grows with the number that lie within the inset of each other.
-const OUTLINE_TOLERANCE: f64 = 0.004;
+const OUTLINE_TOLERANCE: f64 = 0.002;
 
 /// How an inset is cleaned, in w: `opening` is the radius of the disc that must fit everywhere, `tolerance` what
 /// the simplification may move the curve by.
