@@ -25,7 +25,7 @@ macro_rules! figures {
         /// What the audit measures. Lengths in mm; "wall length" is the length of wall path that the model
         /// asks for.
         #[derive(Clone, Debug, Default, PartialEq)]
-        #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(default))]
         #[non_exhaustive]
         pub struct Figures {
             $($(#[$docs])* pub $name: $type,)*

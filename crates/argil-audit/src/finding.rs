@@ -4,7 +4,7 @@ use argil_curve::DVec2;
 
 /// What was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "snake_case"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum FindingKind {
     /// A line that the reader could not make sense of; the measure is its number in the file.
@@ -77,7 +77,7 @@ impl FindingKind {
 
 /// One fault or point of interest.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Finding {
     /// What was found.
     pub kind: FindingKind,
@@ -85,13 +85,7 @@ pub struct Finding {
     pub layer: i64,
     /// Where in the plane, mm: the middle of a stretch, the beginning of a move. `None` for what has no one
     /// place.
-    #[cfg_attr(feature = "serde", serde(serialize_with = "as_pair"))]
     pub at: Option<DVec2>,
     /// How much, in the unit that the kind tells.
     pub measure: f64,
-}
-
-#[cfg(feature = "serde")]
-fn as_pair<S: serde::Serializer>(at: &Option<DVec2>, to: S) -> Result<S::Ok, S::Error> {
-    serde::Serialize::serialize(&at.map(|p| [p.x, p.y]), to)
 }

@@ -8,7 +8,7 @@ const ONE_PLACE: f64 = 1.0;
 
 /// Why the strand touches the model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "snake_case"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum ContactCause {
     /// The strand leaves or joins the wall here, as it must somewhere.
@@ -39,7 +39,7 @@ impl ContactCause {
 
 /// A place where non-model strand lies within one bead of the model's wall, outside of the model.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct ContactPlace {
     /// Why it is there.
@@ -49,15 +49,9 @@ pub struct ContactPlace {
     /// The highest of its layers.
     pub last_layer: i64,
     /// Its middle in the plane, mm.
-    #[cfg_attr(feature = "serde", serde(serialize_with = "as_pair"))]
     pub at: DVec2,
     /// Length of strand that touches, over all its layers, mm.
     pub length: f64,
-}
-
-#[cfg(feature = "serde")]
-fn as_pair<S: serde::Serializer>(at: &DVec2, to: S) -> Result<S::Ok, S::Error> {
-    serde::Serialize::serialize(&[at.x, at.y], to)
 }
 
 /// Gathers the touches of layer after layer into places.

@@ -171,3 +171,19 @@ impl serde::Serialize for Report {
         report.end()
     }
 }
+
+#[cfg(feature = "serde")]
+impl<'de> serde::Deserialize<'de> for Report {
+    /// The verdict is drawn anew from settings and figures, whatever the text says.
+    fn deserialize<D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        #[derive(serde::Deserialize)]
+        struct Measured {
+            settings: AuditSettings,
+            figures: Figures,
+            findings: Vec<Finding>,
+            contacts: Vec<ContactPlace>,
+        }
+        let Measured { settings, figures, findings, contacts } = Measured::deserialize(from)?;
+        Ok(Self { settings, figures, findings, contacts })
+    }
+}

@@ -16,7 +16,7 @@ const REFERENCE_WIDTH: f64 = 1.5;
 /// assert_eq!(AuditSettings::default(), AuditSettings::for_width(1.5));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct AuditSettings {
     /// Bead width w. A wider bead covers more and doubles more.
     pub width: f64,

@@ -2,9 +2,9 @@
 
 use std::process::ExitCode;
 
-use argil::Settings;
 use argil::gcode::read_gcode;
 use argil::mesh::Mesh;
+use argil::{Document, Settings};
 use argil_audit::{AuditSettings, Report, audit};
 
 use crate::args::AuditArgs;
@@ -31,7 +31,7 @@ pub(crate) fn run(args: &AuditArgs) -> Result<ExitCode, Failure> {
         println!("{report}");
     }
     if let Some(path) = &args.json {
-        let json = serde_json::to_vec_pretty(&report)
+        let json = serde_json::to_vec_pretty(&Document(&report))
             .map_err(|source| Failure::Output { what: "report", source: Box::new(source) })?;
         output::write(path, &json)?;
     }

@@ -7,7 +7,7 @@ use std::thread;
 
 use argil::gcode::{Extrusion, GcodeError, GcodeSettings, Poses, write_gcode};
 use argil::mesh::{Mesh, Repairs};
-use argil::{Plan, PlanError, Planner, Settings, literal};
+use argil::{Document, Plan, PlanError, Planner, Settings, literal};
 use argil_audit::Report;
 use argil_preview::{SvgStyle, ViewStyle, layer_svg, overview_svg, png};
 
@@ -209,6 +209,6 @@ fn pictures(args: &PlanArgs, plan: &Plan) -> Result<(), Failure> {
 }
 
 fn json(value: &impl serde::Serialize) -> Result<Vec<u8>, Failure> {
-    serde_json::to_vec_pretty(value)
+    serde_json::to_vec_pretty(&Document(value))
         .map_err(|source| Failure::Output { what: "report", source: Box::new(source) })
 }

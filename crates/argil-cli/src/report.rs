@@ -9,13 +9,9 @@ use serde::Serialize;
 
 use crate::shrinkage::Shrinkage;
 
-/// Version of the JSON layout; it rises when a field changes its meaning or goes.
-const SCHEMA: u32 = 1;
-
 /// The report as it is written.
 #[derive(Serialize)]
 pub(crate) struct PlanReport<'a> {
-    schema: u32,
     program: &'static str,
     version: &'static str,
     model: &'a str,
@@ -85,7 +81,6 @@ impl<'a> PlanReport<'a> {
     ) -> Self {
         let strand = &plan.strand;
         Self {
-            schema: SCHEMA,
             program: "argil",
             version: env!("CARGO_PKG_VERSION"),
             model,

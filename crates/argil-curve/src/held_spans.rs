@@ -8,6 +8,7 @@ const JOIN: f64 = 1e-9;
 
 /// A stretch of a closed curve by arc length; it may run over the end of the curve into its beginning.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ArcSpan {
     /// Arc length where the stretch begins, from 0 up to but excluding the length of the curve, mm.
     pub start: f64,

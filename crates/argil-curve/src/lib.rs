@@ -9,6 +9,8 @@
 mod capsule;
 mod closed_curve;
 mod error;
+#[cfg(feature = "geo")]
+mod geo;
 mod held_spans;
 mod point_index;
 mod segment;

@@ -42,6 +42,7 @@ pub struct SegmentIndex {
 
 /// The segment of an index that is nearest to some point.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct NearestSegment {
     /// Index of the segment in [`SegmentIndex::segments`].
     pub index: usize,

@@ -4,6 +4,8 @@ use argil_curve::{DVec2, Segment};
 
 /// What a stretch of a fill is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Bead {
     /// Part of this wall, counted from the outline.
     Wall(usize),
@@ -21,6 +23,7 @@ impl Bead {
 
 /// A closed curve of beads that does not cross itself.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FillCurve {
     /// The vertices in mm, without repeating the first at the end.
     pub points: Vec<DVec2>,

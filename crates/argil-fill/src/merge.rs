@@ -10,6 +10,7 @@ use crate::{FillCurve, FillError, FillOptions};
 
 /// Curves and the joints that made them.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Merged {
     /// The curves, each with one role a segment.
     pub curves: Vec<FillCurve>,

@@ -4,6 +4,8 @@ use crate::FillError;
 
 /// How a region is filled. Lengths are in mm where they say so, else in w, the bead width.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct FillOptions {
     /// Bead width w, mm. Rings are one width apart.
     pub width: f64,

@@ -9,6 +9,7 @@ use crate::offset::{ring_points, rings};
 
 /// A closed path of beads: a wall, or a ring of a fill.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Ring {
     /// Its vertices in mm, without repeating the first at the end.
     pub points: Vec<DVec2>,

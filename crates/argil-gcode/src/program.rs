@@ -2,6 +2,7 @@
 
 /// A straight move, extruding or not.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Move {
     /// Where it begins, mm.
     pub from: [f64; 3],
@@ -27,6 +28,8 @@ impl Move {
 
 /// What is wrong with a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Fault {
     /// A number too large for arithmetic, or a position that became one.
@@ -39,6 +42,7 @@ pub enum Fault {
 
 /// A line that could not be read as it was meant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct BadLine {
     /// Its number, counted from 1.
     pub line: usize,
@@ -48,6 +52,7 @@ pub struct BadLine {
 
 /// The moves of a g-code file, with what its comments say about them.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Program {
     /// Every move, in order; each begins where the one before ended, but for G92.
     pub moves: Vec<Move>,

@@ -16,6 +16,8 @@ pub const FILAMENT_1_75: f64 = std::f64::consts::PI * 1.75 * 1.75 / 4.0;
 /// than fill keep clear of `fill`, `skin`, `top`, `bottom`, `floor`, `roof`, `skirt`, `prime` and `purge`, which tools
 /// that measure g-code read as solid surfaces or as extras beside the part.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct RoleNames {
     /// For [`Role::Wall`].
     pub wall: String,
@@ -97,6 +99,8 @@ impl RoleNames {
 
 /// How a strand is written as g-code.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct GcodeSettings {
     /// Decimals of coordinates in mm. Default 4, the grid of 1e-4 mm on which plans are checked: with fewer, the
     /// written path is not the checked one. At most 6.

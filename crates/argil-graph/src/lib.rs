@@ -20,6 +20,7 @@ mod visit;
 
 pub use distances::Distances;
 pub use error::{GraphError, PointKind};
+pub use glam::DVec2;
 pub use graph::PathGraph;
 pub use labels::DistanceLabels;
 pub use matrix::DistanceMatrix;

@@ -3,6 +3,8 @@ use nalgebra::{Point3, Similarity3, Translation3, UnitQuaternion};
 
 /// How large a mesh is to be and where it is to stand.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct Placement {
     /// The size; as modelled by default.
     pub size: Size,
@@ -12,6 +14,8 @@ pub struct Placement {
 
 /// The size of a placed mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Size {
     /// As modelled, a unit of the file being a millimetre.
     #[default]
@@ -24,6 +28,8 @@ pub enum Size {
 
 /// Where a placed mesh stands in x and y.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Ground {
     /// At its own coordinates (times the scale).
     #[default]

@@ -5,6 +5,7 @@ const MOST_PLACES: usize = 8;
 
 /// Where something was met: how often, and the first few places.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Places {
     /// How often.
     pub count: usize,
@@ -25,6 +26,7 @@ impl Places {
 ///
 /// Open and crowded edges stay as they are: a gap is closed where a layer meets it, and told there.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Repairs {
     /// Connected surfaces: 1 for a plain solid, more for several bodies or for cavities.
     pub shells: usize,

@@ -7,6 +7,7 @@ use crate::{Mesh, MeshError, Remark, Repairs, Unit};
 ///
 /// Readers give this, so that a unit can be chosen and repairs can be counted before there is a [`Mesh`].
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Soup {
     /// Positions, in the file's unit.
     pub vertices: Vec<[f64; 3]>,

@@ -2,6 +2,8 @@ use std::fmt;
 
 /// A unit of length that model files are made in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Unit {
     /// 0.001 mm.
     Micron,

@@ -9,6 +9,7 @@ pub(crate) const COATS: [Role; 5] = [Role::Connection, Role::Support, Role::Fill
 
 /// A colour of the screen (sRGB).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Colour {
     /// Share of red.
     pub red: u8,
@@ -51,6 +52,8 @@ impl fmt::Display for Colour {
 /// The default is terracotta for what stays in the part (fill paler than walls), slate blue for support and ochre for
 /// connections: apart in hue and in lightness, so that they also differ to most colour-blind eyes and in grey.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct Palette {
     /// For walls.
     pub wall: Colour,

@@ -13,6 +13,8 @@ const ROUND: &str = " stroke-linecap=\"round\"";
 
 /// How a layer is drawn.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct SvgStyle {
     /// Pixels to a millimetre, for programs that show the picture at its own size. Default 12.
     pub scale: f64,

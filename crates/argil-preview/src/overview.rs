@@ -19,6 +19,8 @@ const FINENESS: f64 = 100.0;
 
 /// How the whole strand is drawn.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct ViewStyle {
     /// Direction of the view round the part, degrees: at 0 x points right and y away, positive turns the part
     /// clockwise. Default 25.

@@ -30,6 +30,7 @@ const PROGRAM: [&str; 11] = [
 
 /// A place of the print that the page lists and leads to: a finding of an audit, a contact to be cleaned.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PageMark {
     /// What it is; places of one kind are listed together.
     pub kind: String,
@@ -49,6 +50,8 @@ pub struct PageMark {
 
 /// What a page shows beside the strand.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct PageStyle {
     /// The page's title. Default `strand`.
     pub title: String,

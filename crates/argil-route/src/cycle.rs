@@ -4,6 +4,8 @@ use argil_curve::DVec2;
 
 /// What a stretch of the cycle is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Leg {
     /// It prints a wall.
     Wall,
@@ -21,6 +23,7 @@ pub enum Leg {
 /// Invariants: every wall is printed exactly once, whole, and its vertices are bit-identical to the
 /// input's; no two stretches cross, neither properly nor at a shared vertex; each demand is carried by a vertex.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Cycle {
     /// The vertices, mm.
     pub points: Vec<DVec2>,

@@ -28,6 +28,7 @@ pub struct Wall<'a> {
 
 /// A point that the cycle has to pass, such as a support point of the layer above.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Demand {
     /// Where.
     pub position: DVec2,

@@ -6,6 +6,7 @@ use crate::{RouteError, Wall};
 
 /// The free space inside one wall (or outside of all), with what lies in it.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Region {
     /// The wall around it; `None` for the unbounded region.
     pub outer: Option<usize>,

@@ -11,6 +11,8 @@ const TRUSTING_ROUNDS: usize = 32;
 
 /// The limits of a chain of starts. Lengths in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct SeamSettings {
     /// `ε_across` of the paste: a start lies no further than this from the cycle below. Smaller is safer and
     /// may leave no chain.

@@ -7,6 +7,8 @@ use crate::apart::is_apart;
 
 /// How lanes give way.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Bumps {
     /// Bead width w, mm.
     pub width: f64,

@@ -4,6 +4,8 @@ use argil_fill::{FillError, FillOptions};
 
 /// What is to be closed, and how thickly.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct SkinOptions {
     /// How many walls lie inside each other along an outline. Fill begins where they end.
     pub walls: usize,

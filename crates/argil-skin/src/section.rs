@@ -36,6 +36,7 @@ pub struct Section<'a> {
 
 /// A layer's walls and fill.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Filled {
     /// The loops: the walls, bit by bit and in their order, then the fill. None crosses itself or another.
     pub loops: Vec<ModelLoop>,

@@ -3,6 +3,7 @@ use glam::DVec2;
 
 /// One layer: the cut through the solid and the wall paths inside it.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Layer {
     /// Number of the layer, 0 at the bottom.
     pub index: usize,
@@ -11,9 +12,11 @@ pub struct Layer {
     /// Height in millimetres at which the nozzle prints it: the top of the layer.
     pub print_z: f64,
     /// The region that is solid at `cut_z`: disjoint polygons, exteriors counter-clockwise.
+    #[cfg_attr(feature = "serde", serde(with = "crate::rings"))]
     pub outline: MultiPolygon<f64>,
     /// Where a bead fits: the outline inset by w/2. Its rings are the first walls, but for the lines there and back along
     /// what is too thin.
+    #[cfg_attr(feature = "serde", serde(with = "crate::rings"))]
     pub walled: MultiPolygon<f64>,
     /// The wall loops: simple, pairwise disjoint, on the output grid.
     pub walls: Vec<WallLoop>,
@@ -23,6 +26,7 @@ pub struct Layer {
 
 /// One closed wall path.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct WallLoop {
     /// The vertices in millimetres, on the output grid, without repeating the first at the end.
     /// Counter-clockwise where the loop runs round solid, clockwise (`hole`) where it runs
@@ -43,6 +47,8 @@ pub struct WallLoop {
 
 /// Something of the model that the walls of a layer do not print as it is.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(tag = "kind", rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Loss {
     /// The cut through the mesh has an end: the mesh has a hole here that is too wide to close without guessing.
@@ -162,14 +168,13 @@ impl Loss {
 /// # Example
 /// ```
 /// use argil_slice::{outer_walls, slice, SliceSettings};
-/// # let corners = (0..8).map(|k| [20.0 * f64::from(k & 1), 20.0 * f64::from(k >> 1 & 1), 4.0 * f64::from(k >> 2)]).collect();
-/// # let sides = vec![[0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4], [2, 6, 3], [3, 6, 7], [0, 4, 2], [2, 4, 6], [1, 3, 5], [3, 7, 5]];
-/// # let mesh = argil_slice::mesh::Mesh::new(corners, sides).unwrap();
-/// let layers = slice(&mesh, &SliceSettings::default())?; // a box of 20 x 20 x 4 mm
+/// use argil_slice::mesh::Mesh;
+/// let mesh = Mesh::cuboid([0.0; 3], [20.0, 20.0, 4.0])?;
+/// let layers = slice(&mesh, &SliceSettings::default())?;
 /// let filled = outer_walls(&layers[0]);
 /// assert_eq!(filled.0.len(), 1);
 /// assert!(filled.0[0].interiors().is_empty());
-/// # Ok::<(), argil_slice::SliceError>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[must_use]
 pub fn outer_walls(layer: &Layer) -> MultiPolygon<f64> {

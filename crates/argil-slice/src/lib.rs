@@ -24,6 +24,8 @@ mod mitre;
 mod openings;
 mod pruning;
 mod region;
+#[cfg(feature = "serde")]
+mod rings;
 mod section;
 mod settings;
 mod simplification;
@@ -36,6 +38,7 @@ mod wall;
 
 pub use argil_mesh as mesh;
 pub use error::SliceError;
+pub use glam::DVec2;
 pub use layer::{Layer, Loss, WallLoop, outer_walls};
 pub use openings::check_closed;
 pub use settings::SliceSettings;

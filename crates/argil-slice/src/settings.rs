@@ -8,6 +8,8 @@ pub(crate) const LONGEST: f64 = 1e6;
 
 /// How a mesh is cut and its walls are laid.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct SliceSettings {
     /// Layer height h in millimetres (paper: 0.5). Lower layers follow the surface better and
     /// cost strand in proportion.

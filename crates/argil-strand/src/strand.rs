@@ -117,6 +117,7 @@ pub enum StrandError {
 
 /// One stretch of the strand in space, as a machine moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Step {
     /// Position of the layer it belongs to, counted from the lowest.
     pub layer: usize,

@@ -27,6 +27,8 @@ mod blunt;
 mod clearance;
 mod climb;
 mod descent;
+#[cfg(feature = "serde")]
+mod document;
 mod error;
 mod foothold;
 mod hold;
@@ -55,6 +57,8 @@ pub use argil_strand as strand;
 pub use argil_support as support;
 pub use argil_taut as taut;
 
+#[cfg(feature = "serde")]
+pub use document::Document;
 pub use error::{LayerFault, PlanError};
 pub use plan::{LayerReport, Plan, StageTimes};
 pub use planner::{Planner, Progress};
@@ -69,6 +73,4 @@ mod pages {
     struct Workspace;
     #[doc = include_str!("../../../docs/SLICERS.md")]
     struct Slicers;
-    #[doc = include_str!("../../argil-route/README.md")]
-    struct Route;
 }

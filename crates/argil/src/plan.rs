@@ -6,7 +6,8 @@ use argil_slice::Loss;
 use argil_strand::Strand;
 
 /// A finished plan: one strand, and what is known about it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Plan {
     /// The whole print as one polyline.
     pub strand: Strand,
@@ -46,6 +47,7 @@ pub struct LayerReport {
 
 /// Time spent in each stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct StageTimes {
     /// Cutting the mesh and insetting walls.
     pub slice: Duration,

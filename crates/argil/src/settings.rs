@@ -13,6 +13,7 @@ use crate::PlanError;
 /// What a paste bears, measured by test prints; both in bead widths w.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Material {
     /// `ε_across` / w: how far a bead may lie beside the one below. The paper measured 0.3 for Laguna clay with 33 % water.
     pub across: f64,
@@ -30,6 +31,7 @@ impl Default for Material {
 /// Settings of a plan. Everything that is not here follows from these, in proportion to the bead width.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Settings {
     /// Bead width w, mm (paper: 1.5, from a 0.6 mm nozzle).
     pub width: f64,
