@@ -4,6 +4,12 @@
 //! paper (Sec. 3.2, Eq. 1) rests on [`held_spans`], which gives in closed form what the paper samples.
 //!
 #![doc = include_str!("../README.md")]
+//!
+//! # Held spans
+//!
+#![doc = include_str!("../pictures/held-spans.svg")]
+//!
+//! A curve above another one: terracotta is held, since it lies within the band about the curve below; blue are the gaps.
 #![forbid(unsafe_code)]
 
 mod capsule;

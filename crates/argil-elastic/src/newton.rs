@@ -46,7 +46,7 @@ pub(crate) enum Reading {
 /// Relaxes paths one after the other in the same memory.
 ///
 /// [`relax`](crate::relax) does the same with fresh memory. Results do not depend on what was relaxed before.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct ElasticSolver {
     rod: Rod,
     neighbours: Neighbours,
@@ -206,7 +206,7 @@ enum Verdict {
 }
 
 /// What is known about the step of every free vertex, by its number.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 struct Steps {
     /// Newton step, in w.
     step: Vec<DVec2>,

@@ -1,5 +1,11 @@
 #![doc = include_str!("../README.md")]
 //!
+//! # In a picture
+//!
+#![doc = include_str!("../pictures/fill.svg")]
+//!
+//! The plate of the example: its wall is terracotta, further rings are ochre, joints blue. It is one closed curve.
+//!
 //! # How it is built
 //! The method is the ring merge; full connected Fermat spirals reach continuity by a tree of joints, too (Zhao et al. 2016,
 //! <https://doi.org/10.1145/2897824.2925958>).

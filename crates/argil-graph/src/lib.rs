@@ -1,4 +1,10 @@
 #![doc = include_str!("../README.md")]
+//!
+//! # In a picture
+//!
+#![doc = include_str!("../pictures/path-graph.svg")]
+//!
+//! The free space between two obstacles inside an outer loop: the graph, and the shortest path between two terminals. Ochre is an attachment.
 #![forbid(unsafe_code)]
 
 mod construction;

@@ -1,5 +1,11 @@
 #![doc = include_str!("../README.md")]
 //!
+//! # In a picture
+//!
+#![doc = include_str!("../pictures/cycle.svg")]
+//!
+//! Two bodies, one of them with a window, and seven demands: walls are terracotta, support blue and joints ochre.
+//!
 //! Everything scales with [`RouteSettings::width`]. The result is ready for a smoothing stage such as `argil-elastic`.
 #![forbid(unsafe_code)]
 

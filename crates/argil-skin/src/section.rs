@@ -26,7 +26,7 @@ const BETWEEN: f64 = 0.3;
 const LEFT_OUT: [f64; 3] = [0.3, 0.4, 0.5];
 
 /// One layer of the model.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Section<'a> {
     /// What is solid.
     pub outline: &'a MultiPolygon<f64>,

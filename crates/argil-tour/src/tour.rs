@@ -1,5 +1,7 @@
 //! The outcome of a search.
 
+use alloc::vec::Vec;
+
 /// A closed tour: every node once, and back from the last to the first.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

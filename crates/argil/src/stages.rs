@@ -80,7 +80,7 @@ pub trait Seam {
 }
 
 /// Cuts by planes at mid-layer ([`argil_slice`]).
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PlaneSlices;
 
 impl Slice for PlaneSlices {
@@ -90,7 +90,7 @@ impl Slice for PlaneSlices {
 }
 
 /// Dilates the walls and erodes from layer to layer ([`argil_safeguard`]).
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SlopedSafeguard;
 
 impl Safeguard for SlopedSafeguard {
@@ -100,7 +100,7 @@ impl Safeguard for SlopedSafeguard {
 }
 
 /// The fewest points by the continuous criterion ([`argil_support`]).
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FewestPoints;
 
 impl Support for FewestPoints {
@@ -115,7 +115,7 @@ impl Support for FewestPoints {
 }
 
 /// Excursions from the walls, drawn without a crossing ([`argil_route`]).
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Excursions;
 
 impl Route for Excursions {
@@ -125,7 +125,7 @@ impl Route for Excursions {
 }
 
 /// Excursions as [`Excursions`] makes them, by tours of another solver.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ExcursionsBy<T>(pub T);
 
 impl<T: Tours> Route for ExcursionsBy<T> {
@@ -135,7 +135,7 @@ impl<T: Tours> Route for ExcursionsBy<T> {
 }
 
 /// The guarded elastic curve ([`argil_elastic`]).
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct ElasticCurve {
     solver: ElasticSolver,
 }
@@ -147,7 +147,7 @@ impl Smooth for ElasticCurve {
 }
 
 /// As short as the exact rule of support allows ([`argil_taut`]).
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PulledTaut;
 
 impl Tauten for PulledTaut {
@@ -157,7 +157,7 @@ impl Tauten for PulledTaut {
 }
 
 /// Leaves the path as it is.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LeftSlack;
 
 impl Tauten for LeftSlack {
@@ -167,7 +167,7 @@ impl Tauten for LeftSlack {
 }
 
 /// The best chain of starts over all layers ([`argil_seam`]).
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct BestChain;
 
 impl Seam for BestChain {
