@@ -7,6 +7,12 @@ use argil_curve::{DVec2, Segment, SegmentIndex};
 const ONE_PLACE: f64 = 1.0;
 
 /// Why the strand touches the model.
+///
+/// # Example
+/// ```
+/// use argil_audit::ContactCause;
+/// assert_eq!(ContactCause::Narrow.name(), "between two parts");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
 #[non_exhaustive]

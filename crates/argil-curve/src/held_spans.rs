@@ -7,6 +7,15 @@ use crate::{ClosedCurve, SegmentIndex};
 const JOIN: f64 = 1e-9;
 
 /// A stretch of a closed curve by arc length; it may run over the end of the curve into its beginning.
+///
+/// # Example
+/// ```
+/// use argil_curve::ArcSpan;
+/// // On a curve of 10 mm: over its end, into its beginning.
+/// let span = ArcSpan { start: 9.0, length: 2.0 };
+/// assert_eq!(span.end(), 11.0);
+/// assert!(span.contains(0.5, 10.0) && !span.contains(1.5, 10.0));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ArcSpan {

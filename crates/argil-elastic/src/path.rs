@@ -97,6 +97,7 @@ pub enum Stop {
 /// The relaxed path.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Relaxed {
     /// As many points as went in, in mm; fixed ones are the very same bits.
     pub points: Vec<DVec2>,

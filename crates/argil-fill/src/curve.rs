@@ -22,6 +22,21 @@ impl Bead {
 }
 
 /// A closed curve of beads that does not cross itself.
+///
+/// # Example
+/// ```
+/// use argil_fill::{Bead, FillCurve, FillOptions, Joint, fill};
+/// use geo_types::Rect;
+/// let tile = Rect::new((0.0, 0.0), (12.0, 9.0)).to_polygon().into();
+/// let filled = fill(&tile, &[], &FillOptions::for_width(1.5), &[])?;
+/// let curve: &FillCurve = &filled.curves[0];
+/// assert!((curve.length() - filled.figures.length).abs() < 1e-9);
+/// assert!(curve.beads.contains(&Bead::Joint));
+/// // Each of the joints lies in the tile.
+/// let inside = |joint: &Joint| (0.0..12.0).contains(&joint.middle().x) && (0.0..9.0).contains(&joint.middle().y);
+/// assert!(filled.joints.iter().all(inside));
+/// # Ok::<(), argil_fill::FillError>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FillCurve {

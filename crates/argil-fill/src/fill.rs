@@ -19,6 +19,7 @@ use crate::{FillError, FillOptions};
 /// A filled region.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Fill {
     /// The curves: one for each part of the region that joints can reach from the others. None crosses itself or another.
     pub curves: Vec<FillCurve>,
@@ -33,6 +34,7 @@ pub struct Fill {
 /// What a fill has reached. Areas are counted on a grid of about a third of a bead.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Figures {
     /// Rings that were merged, those that were given included.
     pub rings: usize,

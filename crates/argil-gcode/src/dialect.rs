@@ -3,6 +3,13 @@
 use std::fmt;
 
 /// A family of firmware, for what not every one of them can do.
+///
+/// # Example
+/// ```
+/// use argil_gcode::Flavour;
+/// assert!(Flavour::Marlin.knows_volumetric() && !Flavour::Klipper.knows_volumetric());
+/// assert_eq!(Flavour::RepRapFirmware.to_string(), "RepRapFirmware");
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]

@@ -51,6 +51,16 @@ pub struct BadLine {
 }
 
 /// The moves of a g-code file, with what its comments say about them.
+///
+/// # Example
+/// ```
+/// use argil_gcode::{Program, read_gcode};
+/// let program: Program = read_gcode("M83\nG0 X5\n;TYPE:WALL-OUTER\nG1 X9 E2\nG1 Y9 E2\nG0 Z9\n");
+/// let strand = program.strand_moves();
+/// assert_eq!((program.moves.len(), strand.len()), (4, 2));
+/// assert_eq!(program.kind_of(&strand[0]), Some("WALL-OUTER"));
+/// assert_eq!(program.extruded(), 4.0);
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Program {

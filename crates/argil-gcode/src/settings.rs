@@ -87,7 +87,7 @@ impl RoleNames {
     ///
     /// ```
     /// use argil_gcode::RoleNames;
-    /// use argil_strand::Role;
+    /// use argil_gcode::strand::Role;
     /// assert_eq!(RoleNames::cura().role("wall-outer"), Some(Role::Wall));
     /// assert_eq!(RoleNames::cura().role("Brim"), None);
     /// ```

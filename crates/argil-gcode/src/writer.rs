@@ -20,7 +20,7 @@ const E_DECIMALS: u8 = 5;
 ///
 /// # Example
 /// ```
-/// # use argil_strand::{DVec2, Move, Role, Strand, StrandLayer};
+/// # use argil_gcode::strand::{DVec2, Move, Role, Strand, StrandLayer};
 /// use std::fmt::Write;
 /// use argil_gcode::{Gcode, GcodeSettings};
 /// # let moves = [(9.0, 0.0), (0.0, 9.0), (0.0, 0.0)].map(|(x, y)| Move { to: DVec2::new(x, y), role: Role::Wall });
@@ -55,7 +55,7 @@ pub struct Gcode<'a> {
 ///
 /// # Example
 /// ```
-/// # use argil_strand::{DVec2, Move, Role, Strand, StrandLayer};
+/// # use argil_gcode::strand::{DVec2, Move, Role, Strand, StrandLayer};
 /// use argil_gcode::{GcodeSettings, read_gcode, write_gcode};
 /// # let moves = [(9.0, 0.0), (0.0, 9.0), (0.0, 0.0)].map(|(x, y)| Move { to: DVec2::new(x, y), role: Role::Wall });
 /// # let layer = StrandLayer { index: 0, z: 0.5, height: 0.5, width: 1.5, moves: moves.to_vec(), supports: vec![] };

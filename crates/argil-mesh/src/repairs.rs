@@ -25,6 +25,17 @@ impl Places {
 /// What was found wrong with triangles, and what was done about it, when a mesh was made of them.
 ///
 /// Open and crowded edges stay as they are: a gap is closed where a layer meets it, and told there.
+///
+/// # Example
+/// ```
+/// use argil_mesh::{Bounds, Mesh, Repairs, Soup};
+/// let mut soup = Soup::cuboid([0.0; 3], [4.0, 4.0, 4.0]);
+/// soup.triangles.pop();
+/// let (mesh, repairs): (Mesh, Repairs) = soup.repaired()?;
+/// assert_eq!(repairs.worst().map(|(kind, places)| (kind, places.count)), Some(("open edges", 3)));
+/// assert_eq!(mesh.bounds(), Bounds { min: [0.0; 3], max: [4.0; 3] });
+/// # Ok::<(), argil_mesh::MeshError>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Repairs {

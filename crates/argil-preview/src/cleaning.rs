@@ -30,7 +30,7 @@ pub struct CutPlace {
     /// Whether it is where strand leaves or joins the wall: the blade then goes across each such strand there, and
     /// otherwise along the wall.
     pub at_roots: bool,
-    /// The number of its lowest layer ([`StrandLayer::index`](argil_strand::StrandLayer::index)).
+    /// The number of its lowest layer ([`StrandLayer::index`](argil_preview::strand::StrandLayer::index)).
     pub first_layer: usize,
     /// The number of its highest layer.
     pub last_layer: usize,
@@ -75,7 +75,7 @@ impl Default for CleaningStyle {
 ///
 /// # Example
 /// ```
-/// # use argil_strand::{DVec2, Move, Role, Strand, StrandLayer};
+/// # use argil_preview::strand::{DVec2, Move, Role, Strand, StrandLayer};
 /// use argil_preview::{CleaningStyle, CutPlace, cleaning_html};
 /// # let moves = [(9.0, 0.0, Role::Wall), (0.0, 9.0, Role::Support), (0.0, 0.0, Role::Wall)]
 /// #     .map(|(x, y, role)| Move { to: DVec2::new(x, y), role });

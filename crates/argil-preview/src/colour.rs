@@ -8,6 +8,13 @@ use argil_strand::Role;
 pub(crate) const COATS: [Role; 5] = [Role::Connection, Role::Support, Role::Fill, Role::Wall, Role::Seam];
 
 /// A colour of the screen (sRGB).
+///
+/// # Example
+/// ```
+/// use argil_preview::Colour;
+/// let grey = Colour::new(0, 0, 0).towards(Colour::WHITE, 0.5);
+/// assert_eq!(grey.to_string(), "#808080");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Colour {

@@ -36,7 +36,7 @@ pub struct PageMark {
     pub kind: String,
     /// Whether it makes the print unsound. Faults are listed first.
     pub fault: bool,
-    /// The layer's number ([`StrandLayer::index`](argil_strand::StrandLayer::index)).
+    /// The layer's number ([`StrandLayer::index`](argil_preview::strand::StrandLayer::index)).
     pub layer: usize,
     /// The number of the last layer that it reaches; that of its layer, for most.
     pub last_layer: usize,
@@ -94,7 +94,7 @@ impl Default for PageStyle {
 ///
 /// # Example
 /// ```
-/// # use argil_strand::{DVec2, Move, Role, Strand, StrandLayer};
+/// # use argil_preview::strand::{DVec2, Move, Role, Strand, StrandLayer};
 /// use argil_preview::{PageMark, PageStyle, page_html};
 /// # let moves = [(9.0, 0.0), (0.0, 9.0), (0.0, 0.0)].map(|(x, y)| Move { to: DVec2::new(x, y), role: Role::Wall });
 /// # let layer = StrandLayer { index: 0, z: 0.5, height: 0.5, width: 1.5, moves: moves.to_vec(), supports: vec![] };

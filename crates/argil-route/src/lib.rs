@@ -27,7 +27,7 @@ mod spine;
 mod spliced;
 mod tours;
 
-pub use argil_curve::DVec2;
+pub use argil_curve::{ClosedCurve, DVec2, SegmentIndex};
 pub use argil_graph as graph;
 pub use argil_tour as tour;
 pub use argil_tour::{Metric, TourOptions};

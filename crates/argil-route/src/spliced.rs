@@ -107,9 +107,9 @@ impl SplicedRouter {
     ///
     /// # Example
     /// ```
-    /// use argil_route::{Demand, LayerInput, Leg, RouteSettings, SplicedRouter, Wall};
-    /// let square = [(0.0, 0.0), (6.0, 0.0), (6.0, 6.0), (0.0, 6.0)].map(argil_curve::DVec2::from);
-    /// let demand = Demand { position: argil_curve::DVec2::new(9.0, 3.0), anchors: Vec::new() };
+    /// use argil_route::{DVec2, Demand, LayerInput, Leg, RouteSettings, SplicedRouter, Wall};
+    /// let square = [(0.0, 0.0), (6.0, 0.0), (6.0, 6.0), (0.0, 6.0)].map(DVec2::from);
+    /// let demand = Demand { position: DVec2::new(9.0, 3.0), anchors: Vec::new() };
     /// let layer = LayerInput {
     ///     walls: &[Wall { points: &square, parent: None }],
     ///     demands: &[demand],

@@ -46,6 +46,16 @@ pub struct WallLoop {
 }
 
 /// Something of the model that the walls of a layer do not print as it is.
+///
+/// # Example
+/// ```
+/// use argil_slice::{Loss, SliceSettings, mesh::Mesh, slice};
+/// // A sheet of a tenth of a millimetre.
+/// let layers = slice(&Mesh::cuboid([0.0; 3], [9.0, 0.1, 2.0])?, &SliceSettings::default())?;
+/// assert!(matches!(layers[0].losses[..], [Loss::Vanished { layer: 0, .. }]));
+/// assert!((0.0..=0.1).contains(&layers[0].losses[0].at().y));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(tag = "kind", rename_all = "snake_case"))]

@@ -116,6 +116,13 @@ pub enum StrandError {
 }
 
 /// One stretch of the strand in space, as a machine moves.
+///
+/// # Example
+/// ```
+/// use argil_strand::{DVec3, Role, Step};
+/// let step = Step { layer: 1, from: DVec3::new(0.0, 0.0, 0.5), to: DVec3::new(0.0, 0.0, 1.0), role: Role::Seam };
+/// assert_eq!(step.length(), 0.5); // straight up
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Step {

@@ -8,6 +8,7 @@ use argil_strand::Strand;
 /// A finished plan: one strand, and what is known about it.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Plan {
     /// The whole print as one polyline.
     pub strand: Strand,
@@ -22,6 +23,7 @@ pub struct Plan {
 /// What happened in a layer.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct LayerReport {
     /// Index of the layer in the slicing, 0 at the bottom.
     pub index: usize,
@@ -46,6 +48,15 @@ pub struct LayerReport {
 }
 
 /// Time spent in each stage.
+///
+/// # Example
+/// ```
+/// use std::time::Duration;
+/// use argil::StageTimes;
+/// let times = StageTimes { slice: Duration::from_millis(20), route: Duration::from_millis(30), ..StageTimes::default() };
+/// assert_eq!(times.total(), Duration::from_millis(50));
+/// assert_eq!(times.listed()[0], ("slice", Duration::from_millis(20)));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct StageTimes {

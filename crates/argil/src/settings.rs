@@ -29,6 +29,17 @@ impl Default for Material {
 }
 
 /// Settings of a plan. Everything that is not here follows from these, in proportion to the bead width.
+///
+/// # Example
+/// ```
+/// use argil::{Material, Settings};
+/// let stiff = Material { across: 0.35, ..Material::default() };
+/// let settings = Settings { walls: 2, material: stiff, ..Settings::for_width(3.0) };
+/// assert_eq!(settings.layer_height, 1.0);
+/// assert!((settings.criterion().across - 1.05).abs() < 1e-12); // mm
+/// assert!(settings.check().is_ok());
+/// assert!(Settings { walls: 0, ..settings }.check().is_err());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]

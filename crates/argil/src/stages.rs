@@ -2,6 +2,31 @@
 //!
 //! A trait says what the planner needs from a stage, no more; what a stage keeps in mind between layers is its own
 //! affair (methods take `&mut self` where a workspace is worth keeping). The structs are argil's own stages.
+//!
+//! ```
+//! use argil::curve::{ClosedCurve, SegmentIndex};
+//! use argil::stages::{FewestPoints, Support};
+//! use argil::support::SupportPoint;
+//! use argil::{Planner, Settings};
+//!
+//! /// Argil's own support, counted.
+//! struct Counted(usize);
+//!
+//! impl Support for Counted {
+//!     fn points(&mut self, above: &ClosedCurve, walls: &SegmentIndex, settings: &Settings) -> Vec<SupportPoint> {
+//!         let points = FewestPoints.points(above, walls, settings);
+//!         self.0 += points.len();
+//!         points
+//!     }
+//! }
+//!
+//! let Planner { slice, safeguard, route, smooth, taut, seam, checked, .. } = Planner::default();
+//! let mut planner = Planner { slice, safeguard, support: Counted(0), route, smooth, taut, seam, checked };
+//! let mesh = argil::mesh::Mesh::cuboid([0.0; 3], [9.0, 9.0, 3.0])?;
+//! planner.plan(&mesh, &Settings::default())?;
+//! assert_eq!(planner.support.0, 0, "every wall stands on the one below");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use argil_curve::{ClosedCurve, DVec2, SegmentIndex};
 use argil_elastic::{ElasticError, ElasticSolver, Path};
