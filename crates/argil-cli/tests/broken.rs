@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use argil::mesh::Soup;
 use serde_json::Value;
 
 const DONE: i32 = 0;
@@ -22,22 +23,9 @@ fn folder(name: &str) -> PathBuf {
 
 /// The twelve triangles of a box; 0 to 3 lie flat, 4 to 11 stand.
 fn cuboid(low: [f32; 3], high: [f32; 3]) -> Vec<Triangle> {
-    let corner = |k: usize| [0, 1, 2].map(|axis| if k >> axis & 1 == 0 { low[axis] } else { high[axis] });
-    let sides: [[usize; 3]; 12] = [
-        [0, 2, 1],
-        [1, 2, 3],
-        [4, 5, 6],
-        [5, 7, 6],
-        [0, 1, 4],
-        [1, 5, 4],
-        [2, 6, 3],
-        [3, 6, 7],
-        [0, 4, 2],
-        [2, 4, 6],
-        [1, 3, 5],
-        [3, 7, 5],
-    ];
-    sides.map(|side| side.map(corner)).to_vec()
+    let soup = Soup::cuboid(low.map(f64::from), high.map(f64::from));
+    let corner = |k: u32| soup.vertices[k as usize].map(|value| value as f32);
+    soup.triangles.iter().map(|side| side.map(corner)).collect()
 }
 
 fn flipped(triangles: &[Triangle]) -> Vec<Triangle> {
