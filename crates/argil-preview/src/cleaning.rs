@@ -30,7 +30,7 @@ pub struct CutPlace {
     /// Whether it is where strand leaves or joins the wall: the blade then goes across each such strand there, and
     /// otherwise along the wall.
     pub at_roots: bool,
-    /// The number of its lowest layer ([`StrandLayer::index`](argil_preview::strand::StrandLayer::index)).
+    /// The number of its lowest layer ([`StrandLayer::index`](argil_strand::StrandLayer::index)).
     pub first_layer: usize,
     /// The number of its highest layer.
     pub last_layer: usize,

@@ -36,7 +36,7 @@ pub struct PageMark {
     pub kind: String,
     /// Whether it makes the print unsound. Faults are listed first.
     pub fault: bool,
-    /// The layer's number ([`StrandLayer::index`](argil_preview::strand::StrandLayer::index)).
+    /// The layer's number ([`StrandLayer::index`](argil_strand::StrandLayer::index)).
     pub layer: usize,
     /// The number of the last layer that it reaches; that of its layer, for most.
     pub last_layer: usize,
