@@ -106,11 +106,13 @@ pub(crate) fn foothold(
         .or_else(|| trapped(false))
 }
 
-/// A place beside a start, on the side from which steps lead up to it: as far again from the nearest wall below as what holds it may be.
-/// Strand that only came near the start could stay on the wall's side.
+/// A place beside a start, on the side from which steps lead up to it: farther from the nearest wall below by as much as what holds it
+/// may be. Strand that only came near the start could stay on the wall's side. `None` where a wall stands there.
 fn off_wall(start: DVec2, below: &SegmentIndex, across: f64) -> Option<DVec2> {
     let wall = below.nearest(start)?;
-    Some(start + across * (start - wall.point).normalize_or_zero())
+    let away = across * (start - wall.point).normalize_or_zero();
+    let beyond = below.nearest(start + 2.0 * away)?;
+    (beyond.distance >= wall.distance.max(2.0 * across)).then_some(start + away)
 }
 
 /// A place on a cycle where it may begin.

@@ -1,6 +1,6 @@
 //! Where each layer begins, and the steps from layer to layer.
 
-use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex};
+use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex, on_grid};
 use argil_route::Leg;
 use argil_seam::SeamError;
 use argil_strand::{Move, Role};
@@ -281,7 +281,7 @@ fn opened(layer: &PlannedLayer, start: f64, grid: f64) -> Opened {
     } else if near(points[(on.segment + 1) % n]) {
         (points[(on.segment + 1) % n], on.segment + 1)
     } else {
-        ((exact / grid).round() * grid, on.segment)
+        (on_grid(exact, grid), on.segment)
     };
     let mut moves: Vec<Move> =
         (0..n).map(|k| Move { to: points[(first + k + 1) % n], role: role(first + k) }).collect();
