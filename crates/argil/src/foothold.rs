@@ -91,19 +91,19 @@ pub(crate) fn foothold(
         nearest.map(|(_, place)| place.start)
     };
     let led = |fits: &dyn Fn(&Place) -> bool| best(&|place| place.led && fits(place), &|place| place.hanging);
-    let trapped = |lasting: bool| {
+    let trapped = |fits: &dyn Fn(&Place) -> bool| {
         let from = above.map_or_else(|| cycle.point_at(0.0), |(_, start)| start.at);
         let toward = wall_in_sight(from, here, below, LOOK / 0.73 * seam.reach);
         let far = |place: &Place| toward.map_or(place.hanging, |wall| wall.distance(place.start.at));
-        let start = best(&|place| !place.led && place.lasting == lasting, &far)?;
+        let start = best(&|place| !place.led && fits(place), &far)?;
         Some(Foothold { toward: toward.or_else(|| off_wall(start.at, below, seam.across)), ..start })
     };
     let short = SHORT * reach;
-    led(&|place| place.lasting && place.step <= short)
+    led(&|place| place.start.over_wall && place.step <= short)
         .or_else(|| led(&|place| place.lasting))
-        .or_else(|| trapped(true))
+        .or_else(|| trapped(&|place| place.lasting))
         .or_else(|| led(&|_| true))
-        .or_else(|| trapped(false))
+        .or_else(|| trapped(&|_| true))
 }
 
 /// A place beside a start, on the side from which steps lead up to it: farther from the nearest wall below by as much as what holds it
@@ -257,7 +257,7 @@ mod tests {
         // A strand that runs out to the wall on the right, now a little higher, now a little lower.
         let strand = |layer: i32| {
             let lift = 0.07 * f64::from(layer % 2);
-            let points = [(4.0, lift), (10.0, 0.2 + lift), (10.0, lift - 0.2)];
+            let points = [(4.0, lift - 0.7), (4.0, lift + 0.7), (10.0, lift + 0.7), (10.0, lift - 0.7)];
             ClosedCurve::new(points.map(|(x, y)| DVec2::new(x, y)).to_vec()).unwrap()
         };
         let on = |curve: &ClosedCurve, p: DVec2| {
@@ -272,6 +272,30 @@ mod tests {
             start = next;
         }
         assert!(walls.distance(start.at) <= seam.across, "{start:?} has reached the wall");
+    }
+
+    #[test]
+    fn starts_on_a_narrow_hairpin_stay_at_its_tip() {
+        let seam = SeamSettings::for_width(1.5);
+        let hairpin = [(0.0, 0.0), (8.0, 0.05), (0.0, 0.1)].map(|(x, y)| DVec2::new(x, y));
+        let cycle = ClosedCurve::new(hairpin.to_vec()).unwrap();
+        let on = |x: f64| cycle.nearest(DVec2::new(x, 0.0)).s;
+        assert!(is_open(&cycle, on(9.0), seam.across), "from wherever the strand below may pass");
+        assert!(!is_open(&cycle, on(6.0), seam.across), "not from beyond the other leg");
+        let walls = SegmentIndex::of_curves([&ring(12.0)], 1.5);
+        let none = SegmentIndex::new(Vec::new(), 1.5);
+        let above = Foothold { at: DVec2::new(7.8, 0.1), arc: 0.0, over_wall: false, toward: None };
+        let start = foothold(&cycle, Some((&ring(7.8), above)), [&none, &walls], &seam).unwrap();
+        assert_eq!(start.at, DVec2::new(8.0, 0.05));
+    }
+
+    #[test]
+    fn a_start_that_walls_do_not_lead_up_to_asks_for_strand_on_its_own_side() {
+        let walls = SegmentIndex::of_curves([&ring(10.0)], 1.5);
+        let beside = off_wall(DVec2::new(9.8, 0.0), &walls, 0.45).unwrap();
+        assert!(beside.distance(DVec2::new(9.35, 0.0)) < 0.05, "{beside:?}");
+        let close = SegmentIndex::of_curves([&ring(10.0), &ring(9.2)], 1.5);
+        assert_eq!(off_wall(DVec2::new(9.8, 0.0), &close, 0.45), None, "another wall stands there");
     }
 
     #[test]

@@ -86,13 +86,14 @@ enum Roots {
 }
 
 /// The best first. The last forbids no place.
-fn levels(longest: f64) -> [Level; 5] {
+fn levels(longest: f64) -> [Level; 6] {
     let [far, near] = ROOT_REACH;
     let short = SHORT * longest;
     let level = |reach, roots| Level { reach, roots };
     [
         level(short, Roots::Beyond(far)),
         level(short, Roots::Beyond(near)),
+        level(short, Roots::Graded),
         level(longest, Roots::Beyond(far)),
         level(longest, Roots::Beyond(near)),
         level(longest, Roots::Graded),
