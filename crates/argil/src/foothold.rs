@@ -265,7 +265,7 @@ mod tests {
             Foothold { at: near.point, arc: near.s, over_wall: false, toward: None }
         };
         let mut start = on(&strand(0), DVec2::new(4.0, 0.0));
-        for layer in 1..10 {
+        for layer in 1..20 {
             let next =
                 foothold(&strand(layer), Some((&strand(layer - 1), start)), [&none, &walls], &seam).unwrap();
             assert!(next.at.distance(start.at) <= seam.reach);
