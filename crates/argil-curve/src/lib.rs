@@ -17,6 +17,7 @@ mod closed_curve;
 mod error;
 #[cfg(feature = "geo")]
 mod geo;
+mod grid;
 mod held_spans;
 mod point_index;
 mod segment;
@@ -27,6 +28,7 @@ pub use capsule::SegmentPart;
 pub use closed_curve::{ClosedCurve, NearestOnCurve, OnCurve};
 pub use error::CurveError;
 pub use glam::DVec2;
+pub use grid::on_grid;
 pub use held_spans::{ArcSpan, gaps, held_spans};
 pub use point_index::PointIndex;
 pub use segment::{NearestOnSegment, Segment};

@@ -1,5 +1,4 @@
 use crate::{Bounds, MeshError};
-use nalgebra::{Point3, Similarity3, Translation3, UnitQuaternion};
 
 /// How large a mesh is to be and where it is to stand.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -55,14 +54,9 @@ pub(crate) fn place(
         return Err(MeshError::Place { x: place[0], y: place[1] });
     }
     // Move first, then scale: the lowest point then lies at zero exactly, not up to rounding.
-    let lowered = Translation3::new(-middle[0], -middle[1], -bounds.min[2]);
-    let scaled = Similarity3::from_parts(
-        Translation3::new(place[0], place[1], 0.0),
-        UnitQuaternion::identity(),
-        factor,
-    );
-    let mut placed: Vec<[f64; 3]> =
-        vertices.iter().map(|&vertex| (scaled * (lowered * Point3::from(vertex))).coords.into()).collect();
+    let (from, to) = ([middle[0], middle[1], bounds.min[2]], [place[0], place[1], 0.0]);
+    let moved = |v: &[f64; 3]| [0, 1, 2].map(|axis| (v[axis] - from[axis]) * factor + to[axis]);
+    let mut placed: Vec<[f64; 3]> = vertices.iter().map(moved).collect();
     if let Size::Height(height) = placement.size {
         // A layer is counted by comparing heights: the top must not miss its own by a rounding.
         for (vertex, original) in placed.iter_mut().zip(vertices) {
