@@ -27,6 +27,7 @@ mod blunt;
 mod clearance;
 mod climb;
 mod descent;
+mod ends;
 mod error;
 mod foothold;
 mod hold;
@@ -36,6 +37,8 @@ mod passage;
 mod plan;
 mod planner;
 mod settings;
+mod skirt;
+mod spiral;
 pub mod stages;
 mod starts;
 mod watch;
@@ -56,9 +59,9 @@ pub use argil_support as support;
 pub use argil_taut as taut;
 
 pub use error::{LayerFault, PlanError};
-pub use plan::{LayerReport, Plan, StageTimes};
+pub use plan::{Climb, LayerReport, LevelCause, Plan, SkirtLaid, StageTimes};
 pub use planner::{Planner, Progress};
-pub use settings::{Material, Settings};
+pub use settings::{Bed, Material, Settings, Skirt};
 
 /// The examples of the pages for readers, so that they stay true.
 #[cfg(doctest)]
