@@ -8,9 +8,10 @@ use crate::motion::{Motion, motions};
 use crate::section::Sections;
 use crate::settings::Tolerance;
 use crate::strand::{Piece, pieces};
-use crate::wanted::{Side, Wanted, segment_index};
+use crate::support::Beads;
+use crate::wanted::{Side, Wanted};
 use crate::{AuditError, AuditSettings, Figures, Finding, FindingKind, Report};
-use crate::{bead, contact, coverage, crossings, crowding, motion, passage, support, turns};
+use crate::{bead, contact, coverage, crossings, crowding, motion, passage, rise, support, turns};
 use argil_curve::{DVec2, SegmentIndex};
 use argil_gcode::Program;
 use argil_slice::mesh::Mesh;
@@ -147,7 +148,7 @@ struct Tally {
 #[derive(Debug)]
 struct Below {
     number: i64,
-    beads: SegmentIndex,
+    beads: Beads,
     end: DVec2,
     free: Stretches,
     touches: Vec<Touch>,
@@ -185,6 +186,7 @@ impl Audit<'_> {
         f.transfer_mm = continuity.transfer_length;
         f.retractions = continuity.retractions;
         f.z_down_moves = continuity.moves_down;
+        f.steepest_rise_mm = rise::steepest(motions, self.settings.width);
         f.flow_per_mm_median = continuity.flow.map(|[median, ..]| median);
         f.flow_per_mm_p01_p99 = continuity.flow.map(|[_, low, high]| [low, high]);
         f.layers = printed.len();
@@ -203,8 +205,8 @@ impl Audit<'_> {
         if let (Some(place), false) = (place, wanted.walls.is_empty()) {
             self.figures.wanted_layers = self.figures.wanted_layers.max(place + 1);
         }
-        let laid = segment_index(paths.iter().map(|path| path.points.as_slice()), width);
-        self.coverage(number, wanted, &laid, paths.is_empty());
+        let laid = Beads::new(paths, width, self.settings.layer_height);
+        self.coverage(number, wanted, &laid.index, paths.is_empty());
         let Some(start) = cycle_start(paths, &self.tolerance) else { return Ok(()) };
 
         let measured: Vec<Vec<Piece>> =
@@ -364,7 +366,7 @@ impl Audit<'_> {
         }
         let Some(below) = &self.below else { return };
         let gap = start.at.distance(below.end);
-        let beside = below.beads.distance(start.at);
+        let beside = below.beads.index.distance(start.at);
         self.figures.seam_gap_max_mm = self.figures.seam_gap_max_mm.max(gap);
         if gap > self.tolerance.seam {
             self.find(FindingKind::SeamGap, number, Some(start.at), gap);

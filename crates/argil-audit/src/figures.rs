@@ -65,6 +65,9 @@ figures! {
     retractions: Count(usize),
     /// Moves that go down.
     z_down_moves: Count(usize),
+    /// The most that the nozzle rises within one bead width of its path: a layer's height where layers lie level, less where they
+    /// rise along their cycles.
+    steepest_rise_mm: Measure(f64),
     /// Layers with a path.
     layers: Count(usize),
     /// The most paths in a layer; 1 in a continuous print.

@@ -25,6 +25,7 @@ mod motion;
 mod passage;
 mod region;
 mod report;
+mod rise;
 mod sampling;
 mod section;
 mod settings;

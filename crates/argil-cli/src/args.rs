@@ -65,6 +65,7 @@ const PLAN_EXAMPLES: &str = "Examples:
   argil plan vase.stl -o vase.gcode --width 3 --layer-height 1 --height 120 --place center
   argil plan vase.stl -o vase.gcode --printer eazao-zero --material stoneware
   argil plan sample:cup -o cup.gcode --preview cup.html
+  argil plan sample:cup -o cup.gcode --spiral --skirt
   argil plan sample:cup -o cup.gcode --cleaning cup-cleaning.html
   argil plan sample:cup -o cup.gcode --svg layers --report cup.json
 
@@ -211,6 +212,15 @@ pub(crate) struct PlanArgs {
     /// Close every face that looks up or down and is wider than a bead, with N layers.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) skin: usize,
+    /// Let the layers rise evenly along their cycles wherever they can, so that no step is left between them.
+    #[arg(long)]
+    pub(crate) spiral: bool,
+    /// Go round the part on the bed first, in the same strand; `--skirt=3` goes round three times, `--skirt` twice.
+    #[arg(long, value_name = "N", num_args = 0..=1, require_equals = true, default_missing_value = "2")]
+    pub(crate) skirt: Option<usize>,
+    /// From the part to the skirt, middle of bead to middle of bead, in bead widths.
+    #[arg(long, value_name = "RATIO", default_value_t = 3.0, allow_negative_numbers = true)]
+    pub(crate) skirt_distance: f64,
     #[command(flatten)]
     pub(crate) place: PlaceArgs,
     #[command(flatten)]

@@ -54,6 +54,7 @@ pub(crate) fn gcode_settings(
         first_layer_feed: first_layer_feed.unwrap_or(usual.first_layer_feed),
         approach_feed: machine.travel_feed.or(of(|p| &p.travel_feed)).unwrap_or(usual.approach_feed),
         arc_tolerance: machine.arcs,
+        wipe: machine.wipe,
         line_numbers: machine.line_numbers,
         names: match machine.viewer {
             Viewer::PrusaSlicer => RoleNames::prusa_slicer(),

@@ -7,7 +7,7 @@ use std::thread;
 
 use argil::gcode::{Extrusion, GcodeError, GcodeSettings, Poses, write_gcode};
 use argil::mesh::{Mesh, Repairs};
-use argil::{Document, Plan, PlanError, Planner, Settings, literal};
+use argil::{Document, Plan, PlanError, Planner, Settings, Skirt, literal};
 use argil_audit::Report;
 use argil_preview::{SvgStyle, ViewStyle, layer_svg, overview_svg, png};
 
@@ -20,7 +20,7 @@ use crate::input::Model;
 use crate::preview_page::preview_page;
 use crate::profiles::Profiles;
 use crate::progress::{PlanBar, Waiting};
-use crate::report::{PlanReport, cleaning, is_finding, summary};
+use crate::report::{PlanReport, cleaning, is_finding, skirt_remark, summary};
 use crate::{input, machine, output};
 
 /// Longest side of the overview picture, pixels.
@@ -29,7 +29,14 @@ const PICTURE: u32 = 1600;
 /// Plans a model and writes everything that was asked for.
 pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
     let profiles = Profiles::of(&args.bead)?;
-    let settings = Settings { floor: args.floor, skin: args.skin, ..input::settings(&args.bead, &profiles)? };
+    let skirt = args.skirt.map(|turns| Skirt { turns, distance: args.skirt_distance, bed: profiles.bed() });
+    let settings = Settings {
+        floor: args.floor,
+        skin: args.skin,
+        spiral: args.spiral,
+        skirt,
+        ..input::settings(&args.bead, &profiles)?
+    };
     settings.check().map_err(Failure::option)?;
     let mut written = machine::gcode_settings(&args.job(), &settings, &profiles)?;
     let files = [&args.report, &args.strand, &args.png, &args.preview, &args.cleaning, &args.poses]
@@ -72,6 +79,7 @@ pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
         output::write(path, &json(&PlanReport::new(&args.model, asked, &repairs, &plan, audit.as_ref()))?)?;
     }
 
+    skirt_remark(&settings, &plan).iter().for_each(|remark| eprintln!("note: {remark}"));
     machine::remarks(&profiles, &args.job(), &plan.strand).iter().for_each(|remark| eprintln!("{remark}"));
     Ok(verdict(args, &plan, audit.as_ref()))
 }

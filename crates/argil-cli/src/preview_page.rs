@@ -42,7 +42,7 @@ pub(crate) fn short_name(model: &str) -> &str {
 fn facts(settings: &Settings, plan: &Plan, audit: Option<&Report>) -> Vec<(String, String)> {
     let strand = &plan.strand;
     let model = strand.length_of(Role::Wall) + strand.length_of(Role::Fill);
-    let beside = strand.length() - model;
+    let beside = strand.length() - model - strand.length_of(Role::Skirt);
     let verdict = match audit {
         None => "not made".to_owned(),
         Some(report) if report.is_sound() => "sound".to_owned(),

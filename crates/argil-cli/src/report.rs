@@ -3,7 +3,7 @@
 use argil::mesh::Repairs;
 use argil::slice::Loss;
 use argil::strand::Role;
-use argil::{LayerReport, Plan, Settings};
+use argil::{Climb, LayerReport, LevelCause, Plan, Settings, SkirtLaid};
 use argil_audit::{ContactCause, Report};
 use serde::Serialize;
 
@@ -27,7 +27,10 @@ pub(crate) struct PlanReport<'a> {
     support_mm: f64,
     connection_mm: f64,
     seam_mm: f64,
+    skirt_mm: f64,
     volume_mm3: f64,
+    /// The skirt as it was laid.
+    skirt: Option<SkirtLaid>,
     per_layer: &'a [LayerReport],
     losses: Vec<LossReport>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -96,7 +99,9 @@ impl<'a> PlanReport<'a> {
             support_mm: strand.length_of(Role::Support),
             connection_mm: strand.length_of(Role::Connection),
             seam_mm: strand.length_of(Role::Seam),
+            skirt_mm: strand.length_of(Role::Skirt),
             volume_mm3: strand.volume(),
+            skirt: plan.skirt,
             per_layer: &plan.layers,
             losses: plan.losses.iter().map(loss).collect(),
             audit,
@@ -129,7 +134,7 @@ pub(crate) fn summary(plan: &Plan) -> String {
     let strand = &plan.strand;
     let fill = strand.length_of(Role::Fill);
     let model = strand.length_of(Role::Wall) + fill;
-    let rest = strand.length() - model;
+    let rest = strand.length() - model - strand.length_of(Role::Skirt);
     let mut text = format!(
         "{} layers in one strand of {:.2} m, {:.1} cm³ of paste, 0 transfers\n\
          model {:.2} m, beside the model {:.2} m (ratio {:.3})\n",
@@ -148,6 +153,10 @@ pub(crate) fn summary(plan: &Plan) -> String {
         }
         text.push('\n');
     }
+    if let Some(skirt) = plan.skirt {
+        text.push_str(&format!("skirt: {} turns, {:.2} m\n", skirt.turns, skirt.length / 1e3));
+    }
+    text.push_str(&climb(plan));
     for (kind, count, first) in losses(plan) {
         text.push_str(&format!(
             "note: {count} places: {kind}, the first in layer {} at ({:.2}, {:.2})\n",
@@ -166,6 +175,52 @@ pub(crate) fn summary(plan: &Plan) -> String {
         plan.times.total().as_secs_f64() * 1e3
     ));
     text
+}
+
+/// The most runs of level layers that the summary names for one reason.
+const RUNS_NAMED: usize = 6;
+
+/// How many layers of a spiral rise, and which lie level for what reason; nothing of other plans.
+fn climb(plan: &Plan) -> String {
+    if plan.layers.iter().all(|layer| layer.level_because.is_none()) {
+        return String::new();
+    }
+    let rising = plan.layers.iter().filter(|layer| layer.climb == Climb::Rising).count();
+    let mut text = format!("spiral: {rising} of {} layers rise", plan.layers.len());
+    for (cause, why) in [
+        (LevelCause::Bed, "on the bed"),
+        (LevelCause::Order, "in another order than the layer below"),
+        (LevelCause::Short, "too short to rise"),
+        (LevelCause::Few, "too few between level ones"),
+        (LevelCause::Rim, "the rim"),
+    ] {
+        let runs = plan.layers.chunk_by(|a, b| a.level_because == b.level_because && a.index + 1 == b.index);
+        let of_cause = runs.filter(|run| run.iter().all(|layer| layer.level_because == Some(cause)));
+        let named: Vec<String> = of_cause
+            .filter_map(|run| {
+                let (first, last) = (run.first()?.index, run.last()?.index);
+                Some(if first == last { first.to_string() } else { format!("{first} to {last}") })
+            })
+            .collect();
+        if !named.is_empty() {
+            let more = if named.len() > RUNS_NAMED { ", …" } else { "" };
+            let shown = named[..named.len().min(RUNS_NAMED)].join(", ");
+            text.push_str(&format!("; level {shown}{more}: {why}"));
+        }
+    }
+    text + "\n"
+}
+
+/// What is to be said where the skirt is not what was asked for.
+pub(crate) fn skirt_remark(settings: &Settings, plan: &Plan) -> Option<String> {
+    let asked = settings.skirt?;
+    let Some(laid) = plan.skirt else {
+        return Some("no skirt: it has no room on the bed, or no way from it to the part".to_owned());
+    };
+    let nearer = laid.distance < (asked.distance - 1e-9) * settings.width;
+    (laid.turns < asked.turns || nearer).then(|| {
+        format!("the bed has room for {} turns of skirt, {:.1} mm from the part", laid.turns, laid.distance)
+    })
 }
 
 /// What an audit says beside its verdict: how the strand follows itself, and what there is to clean.

@@ -83,6 +83,7 @@ impl<'a> Gcode<'a> {
         let mut below = None;
         for (layer, laid) in strand.layers().iter().enumerate() {
             let reach = laid.moves.iter().flat_map(|step| [step.to.x, step.to.y]);
+            let reach = reach.chain(strand.rises(layer).iter().map(|rise| rise.z + settings.lift));
             for value in reach.chain([laid.z + settings.lift, laid.width, laid.height]) {
                 grid.step(value).ok_or(GcodeError::OutOfRange { layer, value, decimals: grid.decimals() })?;
             }
@@ -139,7 +140,10 @@ impl<'a> Gcode<'a> {
                 pen.open_layer(step.layer)?;
                 position = Some(step.layer);
             }
-            let closes = steps.peek().is_none_or(|next| next.layer != step.layer || next.role == Role::Seam);
+            let closes = steps.peek().is_none_or(|next| {
+                let enters = step.role == Role::Skirt && next.role != Role::Skirt;
+                next.layer != step.layer || next.role == Role::Seam || enters
+            });
             pen.lay(&step, closes || step.role == Role::Seam)?;
         }
         pen.leave()?;

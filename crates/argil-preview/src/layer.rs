@@ -164,6 +164,9 @@ impl Picture<'_> {
             return format!("no layer {layer}");
         };
         let mut title = format!("layer {}, z {} mm", summary.index, Num(summary.z));
+        if let [first, .., last] = self.strand.rises(layer) {
+            title = format!("layer {}, z {} to {} mm", summary.index, Num(first.z), Num(last.z));
+        }
         for role in Role::ALL {
             let length = summary.lengths.of(role);
             if length > 0.0 && role != Role::Seam {

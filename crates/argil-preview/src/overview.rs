@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use argil_strand::{DVec2, Step, Strand, StrandLayer};
+use argil_strand::{DVec2, DVec3, Step, Strand, StrandLayer};
 
 use crate::colour::COATS;
 use crate::markup::{Escaped, Num};
@@ -181,7 +181,7 @@ impl<'a> View<'a> {
                 own.push(step);
             }
             for run in own.chunk_by(|a, b| a.role == b.role) {
-                self.add_run(run, tolerance, &mut strokes);
+                self.add_run(run, layer.z, tolerance, &mut strokes);
             }
             self.draw_layer(&mut svg, k, layer, &strokes);
         }
@@ -225,13 +225,17 @@ impl<'a> View<'a> {
     }
 
     /// Adds the steps of a run of one role to the strokes of their look: first the rim's, then the body's.
-    fn add_run(&self, run: &[Step], tolerance: f64, [rims, bodies]: &mut [Strokes; 2]) {
+    fn add_run(&self, run: &[Step], plane: f64, tolerance: f64, [rims, bodies]: &mut [Strokes; 2]) {
         let Some(first) = run.first() else { return };
         if !(self.style.non_model || first.role.is_model()) {
             return;
         }
+        // The step to a level layer is drawn in its plane; what rises along a layer is drawn as high as it is.
+        let rises = !self.strand.rises(first.layer).is_empty();
+        let drawn =
+            |p: DVec3| if rises { self.projection.onto(p.truncate(), p.z, plane) } else { p.truncate() };
         let points: Vec<DVec2> =
-            std::iter::once(first.from).chain(run.iter().map(|step| step.to)).map(|p| p.truncate()).collect();
+            std::iter::once(first.from).chain(run.iter().map(|step| step.to)).map(drawn).collect();
         let coat = COATS.iter().position(|&role| role == first.role).unwrap_or(0);
         let whole = |p: DVec2| (p * FINENESS).round().to_array().map(|value| value as i64);
         for pair in kept(&points, tolerance).windows(2) {

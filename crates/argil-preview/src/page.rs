@@ -90,7 +90,7 @@ impl Default for PageStyle {
 /// 1/65,535 of the longer side.
 ///
 /// # Complexity
-/// O(n log n) in the number of moves; the page has 7 bytes for each, and 60 kB besides.
+/// O(n log n) in the number of moves; the page has 7 bytes for each, 12 where the strand rises, and 60 kB besides.
 ///
 /// # Example
 /// ```
@@ -181,6 +181,11 @@ impl fmt::Display for PlanData<'_> {
             write!(f, ",{},{last}]", Num(mark.measure))
         })?;
         let points: Vec<u8> = outline.points.iter().flatten().flat_map(|value| value.to_le_bytes()).collect();
+        if !outline.rises.is_empty() {
+            let rises: Vec<u8> =
+                outline.rises.iter().flatten().flat_map(|value| value.to_le_bytes()).collect();
+            write!(f, ",\"climb\":{},\"rises\":\"{}\"", outline.climb, Base64(&rises))?;
+        }
         write!(f, ",\"points\":\"{}\",\"moveRoles\":\"{}\"}}", Base64(&points), Base64(&outline.roles))
     }
 }

@@ -253,6 +253,8 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
             widest_bare: model.widest_bare,
             free_length: cycle.length_of(Leg::Support) + cycle.length_of(Leg::Joint),
             pulled_back,
+            bead_heights: [settings.layer_height; 2],
+            ..LayerReport::default()
         };
         let curve = ClosedCurve::new(cycle.points).map_err(|e| (e.into(), None))?;
         Ok(Attempt { report, curve, legs: cycle.legs, fill })

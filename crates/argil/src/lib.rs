@@ -29,6 +29,7 @@ mod climb;
 mod descent;
 #[cfg(feature = "serde")]
 mod document;
+mod ends;
 mod error;
 mod foothold;
 mod hold;
@@ -38,6 +39,8 @@ mod passage;
 mod plan;
 mod planner;
 mod settings;
+mod skirt;
+mod spiral;
 pub mod stages;
 mod starts;
 mod watch;
@@ -60,9 +63,9 @@ pub use argil_taut as taut;
 #[cfg(feature = "serde")]
 pub use document::Document;
 pub use error::{LayerFault, PlanError};
-pub use plan::{LayerReport, Plan, StageTimes};
+pub use plan::{Climb, LayerReport, LevelCause, Plan, SkirtLaid, StageTimes};
 pub use planner::{Planner, Progress};
-pub use settings::{Material, Settings};
+pub use settings::{Bed, Material, Settings, Skirt};
 
 /// The examples of the pages for readers, so that they stay true.
 #[cfg(doctest)]

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use argil_mesh::Mesh;
 use argil_slice::{Layer, outer_walls};
 
-use crate::climb::strand;
+use crate::climb::climbed;
 use crate::descent::{Descent, timed, wall_curves};
 use crate::model::model;
 use crate::stages::{
@@ -13,7 +13,7 @@ use crate::stages::{
     Slice, SlopedSafeguard, Smooth, Support, Tauten,
 };
 use crate::watch::{Watch, Watched};
-use crate::{Plan, PlanError, Settings, StageTimes};
+use crate::{LayerReport, Plan, PlanError, Settings, StageTimes};
 
 /// How far a plan has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -223,11 +223,16 @@ impl<S: Slice, G: Safeguard, U: Support, R: Route, E: Smooth, T: Tauten, C: Seam
             return Err(PlanError::Nothing);
         }
         let seam = &mut self.seam;
-        let strand = timed(&mut times.seam, || strand(&planned, seam, settings, self.checked))?;
+        let climbed = timed(&mut times.seam, || climbed(&planned, seam, settings, self.checked))?;
+        let mut reports: Vec<LayerReport> = planned.iter().map(|layer| layer.report).collect();
+        for (report, lie) in reports.iter_mut().zip(&climbed.lies) {
+            (report.climb, report.level_because, report.bead_heights) = (lie.climb, lie.cause, lie.beads);
+        }
         Ok(Plan {
-            strand,
-            layers: planned.iter().map(|layer| layer.report).collect(),
+            strand: climbed.strand,
+            layers: reports,
             losses: layers.iter().flat_map(|layer| layer.losses.iter().cloned()).collect(),
+            skirt: climbed.skirt,
             times,
         })
     }

@@ -28,6 +28,48 @@ impl Default for Material {
     }
 }
 
+/// Turns on the bed round the lowest layer, laid before it and without a break: paste comes evenly when the part begins.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Skirt {
+    /// How often it goes round. More steady the flow and take more paste.
+    pub turns: usize,
+    /// From the lowest layer's strand to the innermost turn, middle to middle, in w.
+    pub distance: f64,
+    /// The bed that it must stay on, if it is known: where there is not enough room the skirt comes nearer, then has fewer turns,
+    /// and at last is left out.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub bed: Option<Bed>,
+}
+
+impl Default for Skirt {
+    /// Two turns at three bead widths, on a bed of any size.
+    fn default() -> Self {
+        Self { turns: 2, distance: 3.0, bed: None }
+    }
+}
+
+/// What of the bed the nozzle reaches, mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
+pub enum Bed {
+    /// A rectangle along the axes.
+    Rectangle {
+        /// The corner with the least coordinates.
+        low: [f64; 2],
+        /// The corner with the greatest.
+        high: [f64; 2],
+    },
+    /// A disc.
+    Disc {
+        /// Its middle.
+        middle: [f64; 2],
+        /// Its radius.
+        radius: f64,
+    },
+}
+
 /// Settings of a plan. Everything that is not here follows from these, in proportion to the bead width.
 ///
 /// # Example
@@ -56,6 +98,13 @@ pub struct Settings {
     /// How many layers close each face that looks up or down and is wider than a bead.
     #[cfg_attr(feature = "serde", serde(default))]
     pub skin: usize,
+    /// Whether the layers rise evenly along their cycles wherever they can, so that no step is left between them: a spiral. The
+    /// path stays the same in the plane.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub spiral: bool,
+    /// Turns on the bed before the part, in the same strand.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub skirt: Option<Skirt>,
     /// What the paste bears.
     pub material: Material,
     /// Step of the output coordinates, mm. Planning rounds to it before the last checks.
@@ -91,6 +140,12 @@ const STIFFNESS: f64 = 0.05;
 /// Floors and skins of more layers than this are solid parts, or a mistake.
 const MOST_CLOSED: usize = 1000;
 
+/// More turns of a skirt than this are a mistake.
+const MOST_TURNS: usize = 100;
+
+/// The least distance of a skirt, in w: nearer, and it is hard to part from the part.
+pub(crate) const NEAREST_SKIRT: f64 = 1.5;
+
 impl Settings {
     /// Defaults for a bead width: a third of it as layer height, one wall, the paper's clay.
     #[must_use]
@@ -101,6 +156,8 @@ impl Settings {
             walls: 1,
             floor: 0,
             skin: 0,
+            spiral: false,
+            skirt: None,
             material: Material::default(),
             grid: 1e-4,
         }
@@ -139,6 +196,19 @@ impl Settings {
         for (name, value) in [("floor", self.floor), ("skin", self.skin)] {
             if value > MOST_CLOSED {
                 return Err(PlanError::Setting { name, value: value as f64, expected: "at most 1000" });
+            }
+        }
+        if let Some(Skirt { turns, distance, .. }) = self.skirt {
+            if turns == 0 || turns > MOST_TURNS {
+                return Err(PlanError::Setting {
+                    name: "skirt.turns",
+                    value: turns as f64,
+                    expected: "1 to 100",
+                });
+            }
+            if !(NEAREST_SKIRT..=1e4).contains(&distance) {
+                let expected = "1.5 to 10,000 bead widths";
+                return Err(PlanError::Setting { name: "skirt.distance", value: distance, expected });
             }
         }
         Ok(())
