@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use argil::Infill;
 use argil::mesh::Unit;
 use clap::{Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
@@ -95,6 +96,9 @@ pub(crate) struct BeadArgs {
     /// Walls side by side along every outline.
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(crate) walls: usize,
+    /// The model is a sheet without thickness, as for spiral vases: its surface is the path of the wall itself.
+    #[arg(long)]
+    pub(crate) surface: bool,
     /// How far a bead may lie beside the one below, in bead widths [default: the material's, or 0.3].
     #[arg(long, value_name = "RATIO", allow_negative_numbers = true)]
     pub(crate) across: Option<f64>,
@@ -211,6 +215,10 @@ pub(crate) struct PlanArgs {
     /// Close every face that looks up or down and is wider than a bead, with N layers.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) skin: usize,
+    /// Fill the inside of the walls sparsely, with this share of clay; `auto`: only below what `--skin` fills, as dense and as far down as
+    /// that needs, and only if the strand gets shorter than with support from the walls.
+    #[arg(long, value_name = "RATIO|auto", value_parser = infill, allow_negative_numbers = true)]
+    pub(crate) infill: Option<Infill>,
     #[command(flatten)]
     pub(crate) place: PlaceArgs,
     #[command(flatten)]
@@ -268,10 +276,24 @@ pub(crate) struct AuditArgs {
     /// Write the figures as JSON; `-` is standard output, in place of the text.
     #[arg(long, value_name = "OUT.json")]
     pub(crate) json: Option<PathBuf>,
+    /// How many of the lowest layers are to be closed: what of them lies open is measured.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) floor: usize,
+    /// Whether faces that look up or down are to be closed: what of them lies open is measured.
+    #[arg(long)]
+    pub(crate) skin: bool,
     #[command(flatten)]
     pub(crate) bead: BeadArgs,
     #[command(flatten)]
     pub(crate) place: PlaceArgs,
+}
+
+/// `auto`, or a number.
+fn infill(text: &str) -> Result<Infill, String> {
+    match text {
+        "auto" => Ok(Infill::Auto),
+        _ => text.parse().map(Infill::Ratio).map_err(|_| "must be `auto` or a number".to_owned()),
+    }
 }
 
 impl PlanArgs {
@@ -290,6 +312,7 @@ impl CalibrateArgs {
             width: self.width,
             layer_height: self.layer_height,
             walls: 1,
+            surface: false,
             across: None,
             along: None,
         }

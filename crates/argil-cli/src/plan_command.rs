@@ -29,7 +29,12 @@ const PICTURE: u32 = 1600;
 /// Plans a model and writes everything that was asked for.
 pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
     let profiles = Profiles::of(&args.bead)?;
-    let settings = Settings { floor: args.floor, skin: args.skin, ..input::settings(&args.bead, &profiles)? };
+    let settings = Settings {
+        floor: args.floor,
+        skin: args.skin,
+        infill: args.infill.unwrap_or_default(),
+        ..input::settings(&args.bead, &profiles)?
+    };
     settings.check().map_err(Failure::option)?;
     let mut written = machine::gcode_settings(&args.job(), &settings, &profiles)?;
     let files = [&args.report, &args.strand, &args.png, &args.preview, &args.cleaning, &args.poses]

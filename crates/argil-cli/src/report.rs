@@ -3,7 +3,7 @@
 use argil::mesh::Repairs;
 use argil::slice::Loss;
 use argil::strand::Role;
-use argil::{LayerReport, Plan, Settings};
+use argil::{InfillChoice, LayerReport, Plan, Settings};
 use argil_audit::{ContactCause, Report};
 use serde::Serialize;
 
@@ -28,10 +28,13 @@ pub(crate) struct PlanReport<'a> {
     strand_mm: f64,
     wall_mm: f64,
     fill_mm: f64,
+    infill_mm: f64,
     support_mm: f64,
     connection_mm: f64,
     seam_mm: f64,
     volume_mm3: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    infill: Option<InfillChoice>,
     per_layer: &'a [LayerReport],
     losses: Vec<LossReport>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -98,10 +101,12 @@ impl<'a> PlanReport<'a> {
             strand_mm: strand.length(),
             wall_mm: strand.length_of(Role::Wall),
             fill_mm: strand.length_of(Role::Fill),
+            infill_mm: infill_length(plan),
             support_mm: strand.length_of(Role::Support),
             connection_mm: strand.length_of(Role::Connection),
             seam_mm: strand.length_of(Role::Seam),
             volume_mm3: strand.volume(),
+            infill: plan.infill,
             per_layer: &plan.layers,
             losses: plan.losses.iter().map(loss).collect(),
             audit,
@@ -118,6 +123,7 @@ fn loss(loss: &Loss) -> LossReport {
         Loss::Narrow { length, .. } => ("part thinner than a bead, mm of its middle line", length),
         Loss::Vanished { area, .. } => ("too small to print, mm²", area),
         Loss::Branch { area, .. } => ("part not reached by a bead, mm²", area),
+        Loss::OpenSheet { length, .. } => ("open section printed there and back, mm", length),
         Loss::Unsound { length, .. } => ("wall left out, mm", length),
         _ => ("other", 0.0),
     };
@@ -147,11 +153,25 @@ pub(crate) fn summary(plan: &Plan) -> String {
     );
     if fill > 0.0 {
         text.push_str(&format!("of the model, fill {:.2} m", fill / 1e3));
+        let sparse = infill_length(plan);
+        if sparse > 0.0 {
+            text.push_str(&format!(", {:.2} m of it infill", sparse / 1e3));
+        }
         let bare = plan.layers.iter().map(|layer| layer.widest_bare).fold(0.0, f64::max);
         if bare > 0.0 {
             text.push_str(&format!("; widest place in it without a bead {bare:.2} mm"));
         }
         text.push('\n');
+    }
+    if let Some(InfillChoice { taken, with_mm, without_mm }) = plan.infill {
+        let told =
+            |length: Option<f64>| length.map_or("no plan".to_owned(), |mm| format!("{:.2} m", mm / 1e3));
+        let chosen = if taken { "infill" } else { "support from the walls" };
+        text.push_str(&format!(
+            "what holds the skins: {chosen}; with infill {}, without {}\n",
+            told(with_mm),
+            told(without_mm)
+        ));
     }
     for (kind, count, first) in losses(plan) {
         text.push_str(&format!(
@@ -171,6 +191,11 @@ pub(crate) fn summary(plan: &Plan) -> String {
         plan.times.total().as_secs_f64() * 1e3
     ));
     text
+}
+
+/// Length of infill, mm.
+fn infill_length(plan: &Plan) -> f64 {
+    plan.layers.iter().map(|layer| layer.infill_length).sum()
 }
 
 /// What an audit says beside its verdict: how the strand follows itself, and what there is to clean.

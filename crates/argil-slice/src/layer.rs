@@ -13,7 +13,7 @@ pub struct Layer {
     /// The region that is solid at `cut_z`: disjoint polygons, exteriors counter-clockwise.
     pub outline: MultiPolygon<f64>,
     /// Where a bead fits: the outline inset by w/2. Its rings are the first walls, but for the lines there and back along
-    /// what is too thin.
+    /// what is too thin. Of a sheet ([`SliceSettings::surface`](crate::SliceSettings::surface)) it is what its section goes round.
     pub walled: MultiPolygon<f64>,
     /// The wall loops: simple, pairwise disjoint, on the output grid.
     pub walls: Vec<WallLoop>,
@@ -114,6 +114,15 @@ pub enum Loss {
         /// The part's area in square millimetres.
         area: f64,
     },
+    /// The section of a sheet has two ends: it is printed there and back, as two lanes in one bead.
+    OpenSheet {
+        /// The layer.
+        layer: usize,
+        /// A point on it.
+        at: DVec2,
+        /// Its length in millimetres.
+        length: f64,
+    },
     /// Wall loops that would touch themselves or others after rounding, and were left out.
     Unsound {
         /// The layer.
@@ -137,6 +146,7 @@ impl Loss {
             | Self::Vanished { layer, .. }
             | Self::Narrow { layer, .. }
             | Self::Branch { layer, .. }
+            | Self::OpenSheet { layer, .. }
             | Self::Unsound { layer, .. } => layer,
         }
     }
@@ -152,6 +162,7 @@ impl Loss {
             | Self::Vanished { at, .. }
             | Self::Narrow { at, .. }
             | Self::Branch { at, .. }
+            | Self::OpenSheet { at, .. }
             | Self::Unsound { at, .. } => at,
         }
     }

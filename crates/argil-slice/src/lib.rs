@@ -26,6 +26,7 @@ mod pruning;
 mod region;
 mod section;
 mod settings;
+mod sheet;
 mod simplification;
 mod slicing;
 mod soundness;

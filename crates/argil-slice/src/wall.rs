@@ -89,6 +89,23 @@ pub(crate) fn walls(layer: usize, outline: &MultiPolygon<f64>, settings: &SliceS
     Walls { walled: MultiPolygon(walled), walls, losses }
 }
 
+/// The walls whose paths are the rings of a region as they are; `thin` where there are lines there and back among them.
+pub(crate) fn walls_along(
+    layer: usize,
+    region: &MultiPolygon<f64>,
+    thin: bool,
+    settings: &SliceSettings,
+) -> Walls {
+    let mut losses = Vec::new();
+    let simple: Vec<Polygon<f64>> = region.iter().map(|polygon| simpler(polygon, settings.width)).collect();
+    let sources = simple.iter().map(|polygon| Source { polygon, distance: 0.0, wall: 0, thin });
+    let pieces = sources.flat_map(|source| source.pieces(ATTEMPTS[0], settings)).collect();
+    let pieces = sound_pieces(pieces, layer, settings, &mut losses);
+    let mut walls: Vec<WallLoop> = pieces.into_iter().flat_map(Piece::into_loops).collect();
+    nest(&mut walls);
+    Walls { walled: region.clone(), walls, losses }
+}
+
 /// The first wall of an outline and how it came about.
 struct FirstWall<'a> {
     pieces: Vec<Piece<'a>>,

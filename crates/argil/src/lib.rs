@@ -56,9 +56,9 @@ pub use argil_support as support;
 pub use argil_taut as taut;
 
 pub use error::{LayerFault, PlanError};
-pub use plan::{LayerReport, Plan, StageTimes};
+pub use plan::{InfillChoice, LayerReport, Plan, StageTimes};
 pub use planner::{Planner, Progress};
-pub use settings::{Material, Settings};
+pub use settings::{Infill, Material, Settings};
 
 /// The examples of the pages for readers, so that they stay true.
 #[cfg(doctest)]
