@@ -144,6 +144,14 @@ pub(crate) enum Place {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Pattern {
+    /// Rings one inside the other, each joined to the next.
+    Rings,
+    /// Double spirals where rings do not branch: they turn back at their ends alone.
+    Spirals,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum UnitArg {
     /// 0.001 mm.
     Micron,
@@ -215,6 +223,9 @@ pub(crate) struct PlanArgs {
     /// Close every face that looks up or down and is wider than a bead, with N layers.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) skin: usize,
+    /// How floors and skins are filled.
+    #[arg(long, value_enum, default_value_t = Pattern::Rings)]
+    pub(crate) fill_pattern: Pattern,
     /// Fill the inside of the walls sparsely, with this share of clay; `auto`: only below what `--skin` fills, as dense and as far down as
     /// that needs, and only if the strand gets shorter than with support from the walls.
     #[arg(long, value_name = "RATIO|auto", value_parser = infill, allow_negative_numbers = true)]

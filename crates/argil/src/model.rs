@@ -1,7 +1,7 @@
 //! What of each layer is the model: its walls, and the fill that closes floors, roofs and undersides.
 
 use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex};
-use argil_fill::FillOptions;
+use argil_fill::{FillOptions, FillPattern};
 use argil_route::{Cycle, Leg, Wall};
 use argil_skin::{Bumps, ModelLoop, Section, SkinOptions, Stripes, beneath, bumped, zones};
 use argil_slice::{Layer, WallLoop};
@@ -48,7 +48,12 @@ pub(crate) fn model(
         skin: settings.skin,
         lanes: LANES,
         tight: false,
-        fill: FillOptions { walls: 0, grid: settings.grid, ..FillOptions::for_width(settings.width) },
+        fill: FillOptions {
+            walls: 0,
+            grid: settings.grid,
+            pattern: if settings.spirals { FillPattern::Spirals } else { FillPattern::Rings },
+            ..FillOptions::for_width(settings.width)
+        },
     };
     let walls: Vec<Vec<Vec<DVec2>>> =
         layers.iter().map(|layer| layer.walls.iter().map(|wall| wall.points.clone()).collect()).collect();

@@ -58,6 +58,9 @@ pub struct Settings {
     /// How many layers close each face that looks up or down and is wider than a bead.
     #[cfg_attr(feature = "serde", serde(default))]
     pub skin: usize,
+    /// Whether rings of floors and skins that lie in each other without a branch become double spirals, which hardly turn back.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub spirals: bool,
     /// What is laid inside of the walls.
     #[cfg_attr(feature = "serde", serde(default))]
     pub infill: Infill,
@@ -113,6 +116,7 @@ impl Settings {
             walls: 1,
             floor: 0,
             skin: 0,
+            spirals: false,
             infill: Infill::None,
             surface: false,
             material: Material::default(),
