@@ -3,15 +3,21 @@
 use crate::SliceSettings;
 use crate::chain::OpenChain;
 use crate::layer::Loss;
-use crate::region::{dilation, parity_region, swept};
+use crate::region::{dilation, inset, parity_region, swept};
 use crate::thin::HALF_LANE;
 use crate::wall::{Walls, walls_along};
-use geo::BooleanOps;
+use geo::{Area, BooleanOps};
 use geo_types::MultiPolygon;
 use glam::DVec2;
 
 /// Regions smaller than this, in square millimetres, are rounding errors of the cut.
 const LEAST_AREA: f64 = 1e-6;
+
+/// How far from the wall a line inside of it ends, in w: the wall's bead covers that.
+const SLIT: f64 = 0.1;
+
+/// Smaller spurs are ends of lines that meet the wall from inside, in w².
+const LEAST_SPUR: f64 = 0.004;
 
 /// How far arcs may cut their corners, in w.
 const CHORD: f64 = 0.003;
@@ -32,19 +38,28 @@ pub(crate) struct Sheet {
 }
 
 impl SheetSection<'_> {
-    /// Closed sections are walls as they are. Open ones are printed there and back, two lanes in one bead; where one lies inside of a
-    /// closed one or meets it, the wall turns off along it.
+    /// Closed sections are walls as they are. Open ones are printed there and back, two lanes in one bead: where one lies outside of all closed
+    /// ones it is a loop or, if it meets one, a spur of it; where one lies inside it is a loop that ends a little before the wall.
     pub(crate) fn sheet(&self, settings: &SliceSettings) -> Sheet {
         let width = settings.width;
         let closed = parity_region(self.contours, LEAST_AREA);
         let opened = self.open.iter().map(|chain| chain.points.clone());
         let lines: Vec<Vec<DVec2>> =
             opened.chain(self.doubled.iter().cloned()).filter(|line| line.len() > 1).collect();
-        let region = match lines.is_empty() {
-            true => closed,
-            false => closed.xor(&swept(&lines, HALF_LANE * width)),
-        };
-        let mut walls = walls_along(self.layer, &region, !lines.is_empty(), settings);
+        let (mut region, mut slits) = (closed, MultiPolygon(Vec::new()));
+        for line in &lines {
+            let lanes = swept(std::slice::from_ref(line), HALF_LANE * width);
+            let sticks_out = lanes
+                .difference(&region)
+                .iter()
+                .any(|spur| spur.unsigned_area() > LEAST_SPUR * width * width);
+            slits = slits.union(&lanes.intersection(&inset(&region, SLIT * width, CHORD * width)));
+            if sticks_out {
+                // What is joined overlaps: the kernel may leave a gap between what only touches.
+                region = region.union(&lanes.difference(&inset(&region, 0.5 * SLIT * width, CHORD * width)));
+            }
+        }
+        let mut walls = walls_along(self.layer, &region, &slits, settings);
         let there_and_back = lines.iter().filter_map(|line| {
             let length = line.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
             Some(Loss::OpenSheet { layer: self.layer, at: *line.get(line.len() / 2)?, length })

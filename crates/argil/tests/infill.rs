@@ -23,13 +23,17 @@ fn infill_mm(plan: &Plan) -> f64 {
 
 #[test]
 fn every_layer_is_filled_sparsely_in_the_same_strand() {
-    let settings = Settings { infill: Infill::Ratio(0.2), ..Settings::for_width(2.0) };
-    let plan = planned("cactus", &settings);
+    let settings = Settings { infill: Infill::Ratio(0.2), ..Settings::for_width(1.5) };
+    let plan = planned("table", &settings);
     let told = infill_mm(&plan);
     let laid = plan.strand.length_of(Role::Fill);
     assert!(told > 0.0 && (told - laid).abs() < 0.02 * laid, "{told} mm told, {laid} mm laid");
-    let twice = planned("cactus", &Settings { infill: Infill::Ratio(0.4), ..settings });
-    assert!(infill_mm(&twice) > 1.4 * told, "{} mm for twice the share of {told}", infill_mm(&twice));
+    let twice = planned("table", &Settings { infill: Infill::Ratio(0.5), ..settings });
+    assert!(
+        infill_mm(&twice) > 1.4 * told,
+        "{} mm for more than twice the share of {told}",
+        infill_mm(&twice)
+    );
 }
 
 #[test]
