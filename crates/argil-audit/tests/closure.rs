@@ -33,8 +33,8 @@ fn drum(ends: bool) -> Mesh {
 
 /// G-code of layers, each of rings with these radii, one after the other.
 fn rings(layers: &[Vec<f64>]) -> String {
-    let mut text = "M83\n".to_owned();
     let inscribed = |radius: f64| radius / (0.5 * TAU / f64::from(SIDES)).cos();
+    let mut text = format!("M83\nG0 X{:.4} Y0\n", inscribed(layers[0][0]));
     for (k, radii) in layers.iter().enumerate() {
         writeln!(text, ";LAYER:{k}\nG1 Z{:.3}", (k + 1) as f64 * HEIGHT).unwrap();
         for &radius in radii {

@@ -17,8 +17,9 @@ const ROUNDS: usize = 4;
 const BUMP: f64 = 0.45;
 
 /// Distance of the lanes of floors and skins, in w. Where a joint is cut out of a lane beside a wall stays a place 0.54 w from the middle of
-/// every bead (at 0.85 it would be 0.56 w), and what is no farther than 0.55 w is closed by clay that spreads a little.
-const LANES: f64 = 0.8;
+/// every bead (at 0.85 it would be 0.56 w), and what is no farther than 0.55 w is closed by clay that spreads a little. Where layers so
+/// filled cannot be planned or joined, lanes lie as far apart as a bead is wide.
+pub(crate) const LANES: [f64; 2] = [0.8, 1.0];
 
 /// The loops that a layer of the model consists of.
 #[derive(Clone, Debug)]
@@ -30,7 +31,7 @@ pub(crate) struct ModelLayer {
     pub(crate) widest_bare: f64,
 }
 
-/// The loops of all layers, bottom first, with this infill.
+/// The loops of all layers, bottom first, with this infill and lanes so many w apart.
 ///
 /// # Errors
 /// [`PlanError::Layer`] where a zone cannot be filled.
@@ -38,6 +39,7 @@ pub(crate) fn model(
     layers: &[Layer],
     settings: &Settings,
     infill: Infill,
+    lanes: f64,
 ) -> Result<Vec<ModelLayer>, PlanError> {
     if settings.floor == 0 && settings.skin == 0 && !matches!(infill, Infill::Ratio(_)) {
         return Ok(layers.iter().map(walls_only).collect());
@@ -46,7 +48,7 @@ pub(crate) fn model(
         walls: settings.walls,
         floor: settings.floor,
         skin: settings.skin,
-        lanes: LANES,
+        lanes,
         tight: false,
         fill: FillOptions {
             walls: 0,

@@ -7,7 +7,7 @@ use argil_slice::{Layer, outer_walls};
 
 use crate::climb::strand;
 use crate::descent::{Descent, timed, wall_curves};
-use crate::model::model;
+use crate::model::{LANES, model};
 use crate::stages::{
     BestChain, ElasticCurve, Excursions, FewestPoints, PlaneSlices, PulledTaut, Route, Safeguard, Seam,
     Slice, SlopedSafeguard, Smooth, Support, Tauten,
@@ -208,16 +208,35 @@ impl<S: Slice, G: Safeguard, U: Support, R: Route, E: Smooth, T: Tauten, C: Seam
         shorter(with, without)
     }
 
+    /// A plan with this infill, whose floors and skins hold water if such a plan can be had.
     fn plan_with(
         &mut self,
         layers: &[Layer],
         (settings, infill): (&Settings, Infill),
+        times: StageTimes,
+        watch: &Watch<'_>,
+    ) -> Result<Plan, PlanError> {
+        let [tight, wide] = LANES;
+        let first = self.plan_filled(layers, (settings, infill, tight), times, watch);
+        let is_closed = settings.floor > 0 || settings.skin > 0;
+        match first {
+            Err(PlanError::Layer { .. } | PlanError::Seam(_)) if is_closed => {
+                self.plan_filled(layers, (settings, infill, wide), times, watch).or(first)
+            }
+            _ => first,
+        }
+    }
+
+    fn plan_filled(
+        &mut self,
+        layers: &[Layer],
+        (settings, infill, lanes): (&Settings, Infill, f64),
         mut times: StageTimes,
         watch: &Watch<'_>,
     ) -> Result<Plan, PlanError> {
         watch.check()?;
         let walls = layers.iter().map(wall_curves).collect::<Result<Vec<_>, _>>()?;
-        let models = timed(&mut times.fill, || model(layers, settings, infill))?;
+        let models = timed(&mut times.fill, || model(layers, settings, infill, lanes))?;
         let outer: Vec<_> = layers.iter().map(outer_walls).collect();
         let safeguards = timed(&mut times.safeguard, || self.safeguard.regions(&outer, settings));
         let descended = Descent {
