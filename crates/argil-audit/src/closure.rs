@@ -108,7 +108,7 @@ pub(crate) fn measure(
         let (at, away) =
             summit(p, away, (0.5 * step, LEAST_STEP * width), |p| is_wanted(p).then(|| distance(p)));
         closure.farthest = closure.farthest.max(away);
-        if away > OPEN * width {
+        if away > OPEN * width && closure.open.iter().all(|(known, _)| known.distance(at) >= APART * width) {
             closure.open.push((at, away));
         }
     }

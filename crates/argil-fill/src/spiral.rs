@@ -1,6 +1,6 @@
 //! Chains of rings without a branch as one closed double spiral.
 
-use argil_curve::{ClosedCurve, DVec2, SegmentIndex, self_crossings};
+use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex, self_crossings};
 
 use crate::ring::{Ring, rounded};
 
@@ -133,7 +133,7 @@ impl<'a> Seam<'a> {
         curve.point_at(curve.wrapped(self.arcs[ring] + (share - 0.5) * self.shift))
     }
 
-    /// Strand along the shift from one share to another, `from` by the ring and share at a time.
+    /// Strand along the shift from one share of it to another; `at` says where it lies at a share.
     fn drawn(&self, shares: [f64; 2], width: f64, at: impl Fn(f64) -> DVec2) -> Vec<DVec2> {
         let count = ((shares[1] - shares[0]).abs() * self.shift / (STEP * width)).ceil().max(1.0) as usize;
         (0..=count).map(|k| at(shares[0] + (shares[1] - shares[0]) * k as f64 / count as f64)).collect()
@@ -207,7 +207,7 @@ fn is_sound(points: &[DVec2], width: f64) -> bool {
     (0..count).all(|k| {
         let arc = curve.length() * k as f64 / count as f64;
         let at = curve.point_at(arc);
-        let spot = argil_curve::Segment::new(at, at);
+        let spot = Segment::new(at, at);
         let mut apart = true;
         index.for_each_near(spot, APART * width, |segment, side| {
             let near = curve.arc_of(segment) + curve.points()[segment].distance(side.nearest(at).point);

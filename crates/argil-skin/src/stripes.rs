@@ -65,7 +65,7 @@ impl Stripes {
         };
         let turn = 2.0 * self.pitch;
         let (first, last) = ((low / turn).floor(), (high / turn).ceil());
-        if !(last - first <= MOST_STRIPES) {
+        if !(0.0..=MOST_STRIPES).contains(&(last - first)) {
             return Err(FillError::TooManyRings { limit: MOST_STRIPES as usize });
         }
         let stripe = |k: usize| {

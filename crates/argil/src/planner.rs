@@ -219,12 +219,11 @@ impl<S: Slice, G: Safeguard, U: Support, R: Route, E: Smooth, T: Tauten, C: Seam
         let [tight, wide] = LANES;
         let first = self.plan_filled(layers, (settings, infill, tight), times, watch);
         let is_closed = settings.floor > 0 || settings.skin > 0;
-        match first {
-            Err(PlanError::Layer { .. } | PlanError::Seam(_)) if is_closed => {
-                self.plan_filled(layers, (settings, infill, wide), times, watch).or(first)
-            }
-            _ => first,
+        if !is_closed || !is_fault(&first) {
+            return first;
         }
+        let second = self.plan_filled(layers, (settings, infill, wide), times, watch);
+        if is_fault(&second) { first } else { second }
     }
 
     fn plan_filled(
@@ -269,6 +268,11 @@ impl<S: Slice, G: Safeguard, U: Support, R: Route, E: Smooth, T: Tauten, C: Seam
             times,
         })
     }
+}
+
+/// Whether there is no plan because of how the layers came out.
+fn is_fault(plan: &Result<Plan, PlanError>) -> bool {
+    matches!(plan, Err(PlanError::Layer { .. } | PlanError::Seam(_)))
 }
 
 /// The plan with the shorter strand, and both lengths; the one with infill only where it is shorter.
