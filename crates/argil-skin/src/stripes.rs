@@ -1,6 +1,6 @@
 //! Sparse fill: stripes whose edges are lanes, in the same places on every layer.
 
-use argil_curve::{DVec2, Segment, SegmentIndex};
+use argil_curve::{DVec2, Segment, SegmentIndex, on_grid};
 use argil_fill::FillError;
 use geo::{BooleanOps, BoundingRect};
 use geo_types::{Coord, LineString, MultiPolygon, Rect};
@@ -141,7 +141,7 @@ impl Section<'_> {
         let grid = options.fill.grid;
         let mut length = 0.0;
         for ring in parts.iter().flat_map(|p| std::iter::once(p.exterior()).chain(p.interiors())) {
-            let points = on_grid(ring, grid);
+            let points = rounded(ring, grid);
             let own: f64 = sides(&points).map(|side| side.length()).sum();
             let is_clear = || points.iter().all(|&p| !taken.is_within(p, CLEAR * width));
             let crosses = || {
@@ -171,10 +171,10 @@ fn sides(points: &[DVec2]) -> impl Iterator<Item = Segment> + '_ {
 }
 
 /// The vertices of a ring on the grid, without sides that are too short.
-fn on_grid(ring: &LineString<f64>, grid: f64) -> Vec<DVec2> {
+fn rounded(ring: &LineString<f64>, grid: f64) -> Vec<DVec2> {
     let mut points: Vec<DVec2> = Vec::with_capacity(ring.0.len());
     for c in ring.0.iter().skip(1) {
-        let point = (DVec2::new(c.x, c.y) / grid).round() * grid;
+        let point = on_grid(DVec2::new(c.x, c.y), grid);
         if points.last().is_none_or(|last| last.distance(point) >= LEAST_SIDE * grid) {
             points.push(point);
         }

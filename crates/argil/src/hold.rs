@@ -1,6 +1,6 @@
 //! The exact check of a smoothed layer, and the repair that pulls it back towards its candidate.
 
-use argil_curve::{ClosedCurve, DVec2, SegmentIndex, self_crossings};
+use argil_curve::{ClosedCurve, DVec2, SegmentIndex, on_grid, self_crossings};
 use argil_support::{Criterion, unsupported_spans};
 
 /// What is wrong with a path, if anything.
@@ -30,7 +30,7 @@ const ROUNDS: usize = 8;
 impl Check<'_> {
     /// The first kind of fault of a closed path: crossings, then spans of the layer above that hang.
     pub(crate) fn fault(&self, points: &[DVec2]) -> Option<Fault> {
-        let crossings = self_crossings(&self.written(points));
+        let crossings = self_crossings(points);
         if !crossings.is_empty() {
             return Some(Fault::Crossing { at: crossings.iter().map(|c| c.point).collect() });
         }
@@ -48,19 +48,10 @@ impl Check<'_> {
         (!at.is_empty()).then_some(Fault::Unsupported { at, length })
     }
 
-    /// The points as a reader of the output has them. On which side of a segment a vertex lies that touches it is decided by the last
-    /// bit, and a count of steps divided has another than the same count times a step.
-    fn written(&self, points: &[DVec2]) -> Vec<DVec2> {
-        let steps = (1.0 / self.grid).round();
-        let is_whole = (steps * self.grid - 1.0).abs() < 1e-9;
-        let written = |count: DVec2| if is_whole { count / steps } else { count * self.grid };
-        points.iter().map(|&point| written((point / self.grid).round())).collect()
-    }
-
     /// Rounds free points to the output grid.
     pub(crate) fn rounded(&self, points: &mut [DVec2], fixed: &[bool]) {
         for (point, _) in points.iter_mut().zip(fixed).filter(|(_, fixed)| !**fixed) {
-            *point = (*point / self.grid).round() * self.grid;
+            *point = on_grid(*point, self.grid);
         }
     }
 
@@ -97,37 +88,5 @@ impl Check<'_> {
             self.rounded(points, fixed);
         }
         Ok(0)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A vertex on the middle of a segment, as steps times the grid on one side of it and as a reader has it on the other.
-    #[test]
-    fn what_touches_is_judged_as_it_is_read() {
-        let steps = [
-            (237_407, 105_540),
-            (239_689, 107_371),
-            (239_442, 109_107),
-            (239_195, 110_842),
-            (240_248, 111_495),
-        ];
-        let back = [
-            (240_420, 109_634),
-            (239_890, 107_707),
-            (239_488, 107_035),
-            (238_938, 106_384),
-            (237_127, 104_838),
-        ];
-        let counts: Vec<DVec2> =
-            steps.into_iter().chain(back).map(|(x, y)| DVec2::new(f64::from(x), f64::from(y))).collect();
-        let planned: Vec<DVec2> = counts.iter().map(|&count| count * 1e-4).collect();
-        let read: Vec<DVec2> = counts.iter().map(|&count| count / 1e4).collect();
-        assert_ne!(self_crossings(&planned).is_empty(), self_crossings(&read).is_empty());
-        let criterion = Criterion { across: 0.45, along: 2.4 };
-        let check = Check { above: None, criterion, width: 1.5, grid: 1e-4 };
-        assert_eq!(check.fault(&planned).is_some(), !self_crossings(&read).is_empty());
     }
 }
