@@ -153,6 +153,8 @@ pub(crate) fn types() -> impl IntoIterator<Item = &'static str> {
         argil::tour::TourSolver,
         // argil
         argil::LayerFault,
+        argil::Infill,
+        argil::InfillChoice,
         argil::LayerReport,
         argil::Material,
         argil::Plan,
