@@ -1,5 +1,6 @@
 //! The audit itself: every measure, layer by layer.
 
+use crate::closure::face;
 use crate::coherence::Stretches;
 use crate::contact::Touch;
 use crate::cycle::{CycleStart, Path, cycle_start, layers};
@@ -9,9 +10,9 @@ use crate::section::Sections;
 use crate::settings::Tolerance;
 use crate::strand::{Piece, pieces};
 use crate::support::Beads;
-use crate::wanted::{Side, Wanted};
+use crate::wanted::{Side, Wanted, segment_index};
 use crate::{AuditError, AuditSettings, Figures, Finding, FindingKind, Report};
-use crate::{bead, contact, coverage, crossings, crowding, motion, passage, rise, support, turns};
+use crate::{bead, closure, contact, coverage, crossings, crowding, motion, passage, rise, support, turns};
 use argil_curve::{DVec2, SegmentIndex};
 use argil_gcode::Program;
 use argil_slice::mesh::Mesh;
@@ -69,7 +70,7 @@ pub fn audit(program: &Program, mesh: &Mesh, settings: &AuditSettings) -> Result
     // One layer of the file for each of the mesh, and any more that the file has.
     let of_mesh = (0..outlines.len()).map(|n| lowest.saturating_add_unsigned(n as u64));
     let numbers: BTreeSet<i64> = of_mesh.chain(printed.keys().copied()).collect();
-    let empty = Outline { plane: f64::NEG_INFINITY, region: MultiPolygon::new(Vec::new()) };
+    let empty = Outline { plane: f64::NEG_INFINITY, region: MultiPolygon::new(Vec::new()), section: None };
     let mut sections = Sections::new(mesh);
     for number in numbers {
         let place = usize::try_from(number.saturating_sub(lowest)).ok();
@@ -78,8 +79,12 @@ pub fn audit(program: &Program, mesh: &Mesh, settings: &AuditSettings) -> Result
         let [dx, dy] = settings.offset;
         let mut cuts = sections.at(outline.plane);
         cuts.iter_mut().for_each(|cut| *cut += DVec2::new(dx, dy));
-        let wanted = Wanted::new(&outline.region, &cuts, settings, &audit.tolerance);
+        let wanted =
+            Wanted::new((&outline.region, outline.section.as_ref()), &cuts, settings, &audit.tolerance);
         audit.layer(number, place, &wanted, paths)?;
+        for region in place.map(|place| to_close(&outlines, place, settings)).into_iter().flatten() {
+            audit.closure(number, &region, &wanted, paths);
+        }
     }
     audit.close_below(None);
     Ok(audit.finished())
@@ -93,10 +98,15 @@ fn outlines(mesh: &Mesh, settings: &AuditSettings) -> Result<Vec<Outline>, Audit
         width: settings.width,
         grid: SliceSettings::default().grid.min(0.001 * settings.width),
         walls: 1,
+        surface: settings.surface,
         ..SliceSettings::default()
     };
     let [dx, dy] = settings.offset;
-    let outline = |layer: Layer| Outline { plane: layer.cut_z, region: layer.outline.translate(dx, dy) };
+    let outline = |layer: Layer| Outline {
+        plane: layer.cut_z,
+        region: layer.outline.translate(dx, dy),
+        section: settings.surface.then(|| layer.walled.translate(dx, dy)),
+    };
     Ok(slice(mesh, &cuts)?.into_iter().map(outline).collect())
 }
 
@@ -105,6 +115,22 @@ struct Outline {
     /// Height of the plane, mm.
     plane: f64,
     region: MultiPolygon<f64>,
+    /// What the section of a sheet goes round.
+    section: Option<MultiPolygon<f64>>,
+}
+
+/// What of a layer is to be closed: a floor whole, else its faces above and below.
+fn to_close(outlines: &[Outline], place: usize, settings: &AuditSettings) -> Vec<MultiPolygon<f64>> {
+    let region =
+        |place: Option<usize>| place.and_then(|place| outlines.get(place)).map(|outline| &outline.region);
+    let none = MultiPolygon::new(Vec::new());
+    match region(Some(place)) {
+        Some(own) if place < settings.floor => vec![own.clone()],
+        Some(own) if settings.skin => [Some(place + 1), place.checked_sub(1)]
+            .map(|other| face(own, region(other).unwrap_or(&none), settings.width))
+            .to_vec(),
+        _ => Vec::new(),
+    }
 }
 
 fn unreadable_lines(program: &Program) -> Vec<Finding> {
@@ -130,6 +156,8 @@ struct Tally {
     missed: f64,
     outline: f64,
     uncovered: f64,
+    closed: f64,
+    open: f64,
     contact: f64,
     contact_outside: f64,
     crowded: f64,
@@ -292,6 +320,20 @@ impl Audit<'_> {
         }
     }
 
+    /// What of a region that is to be closed lies open.
+    fn closure(&mut self, number: i64, region: &MultiPolygon<f64>, wanted: &Wanted, paths: &[Path]) {
+        let width = self.settings.width;
+        let laid = segment_index(paths.iter().map(|path| path.points.as_slice()), width);
+        let closure = closure::measure(region, wanted, &laid, width);
+        self.tally.closed += closure.wanted;
+        self.tally.open += closure.bare;
+        let farthest = &mut self.figures.closed_farthest_widths;
+        *farthest = farthest.max(closure.farthest / width);
+        for (at, distance) in closure.open {
+            self.find(FindingKind::BareFill, number, Some(at), distance);
+        }
+    }
+
     /// Everything that is measured along one path; what of it touches the model outside.
     fn path(
         &mut self,
@@ -383,6 +425,8 @@ impl Audit<'_> {
         figures.material_ratio = share(figures.nonmodel_mm, tally.wanted);
         figures.model_missed_fraction = share(tally.missed, tally.wanted);
         figures.contour_uncovered_fraction = share(tally.uncovered, tally.outline);
+        figures.closed_mm2 = tally.closed;
+        figures.closed_bare_fraction = share(tally.open, tally.closed);
         figures.unsupported_fraction = share(figures.unsupported_mm, figures.path_mm);
         figures.contact_per_model_mm = share(tally.contact, tally.wanted);
         figures.contact_outside_apart_from_roots = share(tally.contact_outside, tally.wanted);

@@ -98,6 +98,12 @@ figures! {
     model_missed_layers: Count(usize),
     /// Share of the outline that no bead reaches: thin features.
     contour_uncovered_fraction: Measure(f64),
+    /// Area of floors and faces that are to be closed and that a bead inside of the model can reach, mm².
+    closed_mm2: Measure(f64),
+    /// Share of it that lies farther than half a bead from the middle of every bead.
+    closed_bare_fraction: Measure(f64),
+    /// The greatest distance of a place of it from the middle of a bead, in bead widths.
+    closed_farthest_widths: Measure(f64),
     /// Stretches longer than the longest bridge with nothing below.
     unsupported_spans: Count(usize),
     /// Their length.

@@ -40,6 +40,9 @@ pub enum FindingKind {
     /// A stretch of outline longer than a bead that no bead reaches, since the model is thinner there; the measure is
     /// its length, mm.
     BareOutline,
+    /// A place of a floor or face that is to be closed, farther than 0.55 beads from the middle of every bead; the measure is
+    /// that distance, mm.
+    BareFill,
     /// A stretch of non-model strand that holds nothing, joins nothing and lies away from the strand above; the measure
     /// is the length farther than one bead from that, mm.
     Jump,
@@ -69,6 +72,7 @@ impl FindingKind {
             Self::SharpTurn => "sharp turn",
             Self::SharpBend => "sharp bend",
             Self::BareOutline => "bare outline",
+            Self::BareFill => "open place in a floor or face",
             Self::Jump => "jump",
             Self::Contact => "contact",
         }

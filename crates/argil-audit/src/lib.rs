@@ -11,6 +11,7 @@
 
 mod audit;
 mod bead;
+mod closure;
 mod coherence;
 mod contact;
 mod coverage;

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use argil::Infill;
 use argil::mesh::Unit;
 use clap::{Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
@@ -96,6 +97,9 @@ pub(crate) struct BeadArgs {
     /// Walls side by side along every outline.
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(crate) walls: usize,
+    /// The model is a sheet without thickness, as for spiral vases: its surface is the path of the wall itself.
+    #[arg(long)]
+    pub(crate) surface: bool,
     /// How far a bead may lie beside the one below, in bead widths [default: the material's, or 0.3].
     #[arg(long, value_name = "RATIO", allow_negative_numbers = true)]
     pub(crate) across: Option<f64>,
@@ -138,6 +142,14 @@ pub(crate) enum Place {
     Center,
     /// Put the middle of the model on the middle of the printer's bed.
     Bed,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Pattern {
+    /// Rings one inside the other, each joined to the next.
+    Rings,
+    /// Double spirals where rings do not branch: they turn back at their ends alone.
+    Spirals,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -221,6 +233,13 @@ pub(crate) struct PlanArgs {
     /// From the part to the skirt, middle of bead to middle of bead, in bead widths.
     #[arg(long, value_name = "RATIO", default_value_t = 3.0, allow_negative_numbers = true)]
     pub(crate) skirt_distance: f64,
+    /// How floors and skins are filled.
+    #[arg(long, value_enum, default_value_t = Pattern::Rings)]
+    pub(crate) fill_pattern: Pattern,
+    /// Fill the inside of the walls sparsely, with this share of clay; `auto`: only below what `--skin` fills, as dense and as far down as
+    /// that needs, and only if the strand gets shorter than with support from the walls.
+    #[arg(long, value_name = "RATIO|auto", value_parser = infill, allow_negative_numbers = true)]
+    pub(crate) infill: Option<Infill>,
     #[command(flatten)]
     pub(crate) place: PlaceArgs,
     #[command(flatten)]
@@ -278,10 +297,24 @@ pub(crate) struct AuditArgs {
     /// Write the figures as JSON; `-` is standard output, in place of the text.
     #[arg(long, value_name = "OUT.json")]
     pub(crate) json: Option<PathBuf>,
+    /// How many of the lowest layers are to be closed: what of them lies open is measured.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) floor: usize,
+    /// Whether faces that look up or down are to be closed: what of them lies open is measured.
+    #[arg(long)]
+    pub(crate) skin: bool,
     #[command(flatten)]
     pub(crate) bead: BeadArgs,
     #[command(flatten)]
     pub(crate) place: PlaceArgs,
+}
+
+/// `auto`, or a number.
+fn infill(text: &str) -> Result<Infill, String> {
+    match text {
+        "auto" => Ok(Infill::Auto),
+        _ => text.parse().map(Infill::Ratio).map_err(|_| "must be `auto` or a number".to_owned()),
+    }
 }
 
 impl PlanArgs {
@@ -300,6 +333,7 @@ impl CalibrateArgs {
             width: self.width,
             layer_height: self.layer_height,
             walls: 1,
+            surface: false,
             across: None,
             along: None,
         }

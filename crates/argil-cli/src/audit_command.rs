@@ -16,7 +16,11 @@ use crate::{input, output};
 /// Measures a file and tells what it found.
 pub(crate) fn run(args: &AuditArgs) -> Result<ExitCode, Failure> {
     let profiles = Profiles::of(&args.bead)?;
-    let settings = input::settings(&args.bead, &profiles)?;
+    let settings = Settings {
+        floor: args.floor,
+        skin: usize::from(args.skin),
+        ..input::settings(&args.bead, &profiles)?
+    };
     args.json.iter().try_for_each(|path| output::check(path))?;
     let mesh = input::model(&args.model, args.place, &profiles, settings.layer_height)?.mesh;
     let bytes = std::fs::read(&args.gcode).map_err(|source| Failure::reading(&args.gcode, source))?;
@@ -53,6 +57,9 @@ fn wanted(settings: &Settings) -> AuditSettings {
     AuditSettings {
         layer_height: settings.layer_height,
         walls: settings.walls,
+        floor: settings.floor,
+        skin: settings.skin > 0,
+        surface: settings.surface,
         across: criterion.across,
         along: criterion.along,
         ..AuditSettings::for_width(settings.width)

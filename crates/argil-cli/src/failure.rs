@@ -158,7 +158,10 @@ impl fmt::Display for Failure {
 fn advice(error: &argil::PlanError) -> Option<&'static str> {
     use argil::PlanError::{Layer, Nothing, Seam, Slice};
     match error {
-        Nothing => Some("try a smaller --width, or a larger --scale if the file is not in millimetres"),
+        Nothing => Some(
+            "try a smaller --width, a larger --scale if the file is not in millimetres, or --surface if the model is a sheet \
+             without thickness",
+        ),
         Slice(argil::slice::SliceError::ThinnerThanALayer { .. }) => {
             Some("try a smaller --layer-height, or a larger --scale if the file is not in millimetres")
         }
@@ -166,7 +169,8 @@ fn advice(error: &argil::PlanError) -> Option<&'static str> {
             Some("try --height, or --scale 0.001 if the file is in micrometres")
         }
         Slice(argil::slice::SliceError::Open { .. }) => Some(
-            "nothing was written; close the hole in the program that the model was made in, or with one that repairs meshes",
+            "nothing was written; close the hole in the program that the model was made in, or with one that repairs meshes; if \
+             the model is a sheet without thickness, say --surface",
         ),
         Slice(argil::slice::SliceError::Gap { .. }) => {
             Some("nothing was written; without --strict the gap is closed with a straight line")

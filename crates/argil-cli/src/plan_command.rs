@@ -11,7 +11,7 @@ use argil::{Document, Plan, PlanError, Planner, Settings, Skirt, literal};
 use argil_audit::Report;
 use argil_preview::{SvgStyle, ViewStyle, layer_svg, overview_svg, png};
 
-use crate::args::PlanArgs;
+use crate::args::{Pattern, PlanArgs};
 use crate::audit_command::measure;
 use crate::cleaning_page::cleaning_page;
 use crate::closed_slices::ClosedSlices;
@@ -35,6 +35,8 @@ pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
         skin: args.skin,
         spiral: args.spiral,
         skirt,
+        spirals: args.fill_pattern == Pattern::Spirals,
+        infill: args.infill.unwrap_or_default(),
         ..input::settings(&args.bead, &profiles)?
     };
     settings.check().map_err(Failure::option)?;

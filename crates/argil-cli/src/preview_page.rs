@@ -79,7 +79,7 @@ fn contact(place: &ContactPlace) -> PageMark {
 /// print, where what was found is within its limit.
 fn finding(finding: &argil_audit::Finding, sound: bool) -> PageMark {
     use FindingKind::{
-        BareOutline, Contact, Jump, ManyPaths, Retraction, SelfCrossing, SharpBend, SharpTurn,
+        BareFill, BareOutline, Contact, Jump, ManyPaths, Retraction, SelfCrossing, SharpBend, SharpTurn,
         UnreadableLine, WallCrossing,
     };
     let unit = match finding.kind {
@@ -91,7 +91,8 @@ fn finding(finding: &argil_audit::Finding, sound: bool) -> PageMark {
     };
     PageMark {
         kind: finding.kind.name().to_owned(),
-        fault: !sound && !matches!(finding.kind, BareOutline | Contact | Jump | SharpBend | SharpTurn),
+        fault: !sound
+            && !matches!(finding.kind, BareFill | BareOutline | Contact | Jump | SharpBend | SharpTurn),
         layer: usize::try_from(finding.layer).unwrap_or(0),
         last_layer: usize::try_from(finding.layer).unwrap_or(0),
         at: finding.at,
@@ -110,6 +111,7 @@ fn loss(loss: &Loss) -> PageMark {
         Loss::Narrow { length, .. } => ("part thinner than a bead", length, "mm"),
         Loss::Vanished { area, .. } => ("too small to print", area, "mm²"),
         Loss::Branch { area, .. } => ("branch thinner than a bead", area, "mm²"),
+        Loss::OpenSheet { length, .. } => ("open section printed there and back", length, "mm"),
         Loss::Unsound { length, .. } => ("wall left out", length, "mm"),
         _ => ("other loss", 0.0, ""),
     };

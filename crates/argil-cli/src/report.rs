@@ -3,7 +3,7 @@
 use argil::mesh::Repairs;
 use argil::slice::Loss;
 use argil::strand::Role;
-use argil::{Climb, LayerReport, LevelCause, Plan, Settings, SkirtLaid};
+use argil::{Climb, InfillChoice, LayerReport, LevelCause, Plan, Settings, SkirtLaid};
 use argil_audit::{ContactCause, Report};
 use serde::Serialize;
 
@@ -24,6 +24,7 @@ pub(crate) struct PlanReport<'a> {
     strand_mm: f64,
     wall_mm: f64,
     fill_mm: f64,
+    infill_mm: f64,
     support_mm: f64,
     connection_mm: f64,
     seam_mm: f64,
@@ -31,6 +32,8 @@ pub(crate) struct PlanReport<'a> {
     volume_mm3: f64,
     /// The skirt as it was laid.
     skirt: Option<SkirtLaid>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    infill: Option<InfillChoice>,
     per_layer: &'a [LayerReport],
     losses: Vec<LossReport>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -96,12 +99,14 @@ impl<'a> PlanReport<'a> {
             strand_mm: strand.length(),
             wall_mm: strand.length_of(Role::Wall),
             fill_mm: strand.length_of(Role::Fill),
+            infill_mm: infill_length(plan),
             support_mm: strand.length_of(Role::Support),
             connection_mm: strand.length_of(Role::Connection),
             seam_mm: strand.length_of(Role::Seam),
             skirt_mm: strand.length_of(Role::Skirt),
             volume_mm3: strand.volume(),
             skirt: plan.skirt,
+            infill: plan.infill,
             per_layer: &plan.layers,
             losses: plan.losses.iter().map(loss).collect(),
             audit,
@@ -118,6 +123,7 @@ fn loss(loss: &Loss) -> LossReport {
         Loss::Narrow { length, .. } => ("part thinner than a bead, mm of its middle line", length),
         Loss::Vanished { area, .. } => ("too small to print, mm²", area),
         Loss::Branch { area, .. } => ("part not reached by a bead, mm²", area),
+        Loss::OpenSheet { length, .. } => ("open section printed there and back, mm", length),
         Loss::Unsound { length, .. } => ("wall left out, mm", length),
         _ => ("other", 0.0),
     };
@@ -147,6 +153,10 @@ pub(crate) fn summary(plan: &Plan) -> String {
     );
     if fill > 0.0 {
         text.push_str(&format!("of the model, fill {:.2} m", fill / 1e3));
+        let sparse = infill_length(plan);
+        if sparse > 0.0 {
+            text.push_str(&format!(", {:.2} m of it infill", sparse / 1e3));
+        }
         let bare = plan.layers.iter().map(|layer| layer.widest_bare).fold(0.0, f64::max);
         if bare > 0.0 {
             text.push_str(&format!("; widest place in it without a bead {bare:.2} mm"));
@@ -157,6 +167,16 @@ pub(crate) fn summary(plan: &Plan) -> String {
         text.push_str(&format!("skirt: {} turns, {:.2} m\n", skirt.turns, skirt.length / 1e3));
     }
     text.push_str(&climb(plan));
+    if let Some(InfillChoice { taken, with_mm, without_mm }) = plan.infill {
+        let told =
+            |length: Option<f64>| length.map_or("no plan".to_owned(), |mm| format!("{:.2} m", mm / 1e3));
+        let chosen = if taken { "infill" } else { "support from the walls" };
+        text.push_str(&format!(
+            "what holds the skins: {chosen}; with infill {}, without {}\n",
+            told(with_mm),
+            told(without_mm)
+        ));
+    }
     for (kind, count, first) in losses(plan) {
         text.push_str(&format!(
             "note: {count} places: {kind}, the first in layer {} at ({:.2}, {:.2})\n",
@@ -221,6 +241,11 @@ pub(crate) fn skirt_remark(settings: &Settings, plan: &Plan) -> Option<String> {
     (laid.turns < asked.turns || nearer).then(|| {
         format!("the bed has room for {} turns of skirt, {:.1} mm from the part", laid.turns, laid.distance)
     })
+}
+
+/// Length of infill, mm.
+fn infill_length(plan: &Plan) -> f64 {
+    plan.layers.iter().map(|layer| layer.infill_length).sum()
 }
 
 /// What an audit says beside its verdict: how the strand follows itself, and what there is to clean.

@@ -4,7 +4,8 @@
 //! same vertex come to lie beside each other in the order that the circuit gives them. Nothing crosses as long as the
 //! offsets are small against the angles and edges round the vertex; where something does, after rounding to the
 //! grid, the offsets of the vertices concerned are halved and in the end dropped: strands that
-//! coincide touch, but do not cross.
+//! coincide touch, but do not cross. Where a channel is narrower than the lanes all along, a vertex without offset crosses to the next one
+//! with it, so that offsets are dropped along the strand, farther each time.
 
 use argil_curve::{DVec2, on_grid, self_crossings};
 
@@ -14,6 +15,9 @@ use crate::multigraph::{EdgeEnd, Multigraph};
 
 /// Rounds of halving before an offset is dropped.
 const HALVINGS: usize = 5;
+
+/// Rounds in which offsets are dropped along the strand, twice as far each time: enough for any strand that is held.
+const WIDENINGS: usize = 32;
 
 /// A vertex of the drawn cycle.
 #[derive(Clone, Copy, Debug)]
@@ -31,7 +35,7 @@ pub(crate) fn draw(graph: &Multigraph, circuit: &Circuit, lane: f64, spacing: f6
     let carrier = carriers(graph, circuit);
     let mut offsets = vec![lane; graph.positions.len()];
     let mut drawn = polyline(graph, circuit, &carrier, &offsets, grid);
-    for round in 0..=2 * HALVINGS {
+    for round in 0..=2 * HALVINGS + WIDENINGS {
         let points: Vec<DVec2> = drawn.iter().map(|d| d.at).collect();
         let crossings = self_crossings(&points);
         if crossings.is_empty() {
@@ -40,7 +44,9 @@ pub(crate) fn draw(graph: &Multigraph, circuit: &Circuit, lane: f64, spacing: f6
         let n = drawn.len();
         let mut shrunk = false;
         for crossing in crossings {
-            for k in [crossing.first, crossing.first + 1, crossing.second, crossing.second + 1] {
+            let reach = round.checked_sub(2 * HALVINGS + 1).map_or(0, |further| n.min(1 << further));
+            let about = |k: usize| k + n - reach..=k + n + 1 + reach;
+            for k in about(crossing.first).chain(about(crossing.second)) {
                 if let Some(vertex) = drawn[k % n].vertex {
                     let offset = &mut offsets[vertex as usize];
                     shrunk |= *offset > 0.0;

@@ -16,6 +16,12 @@ pub enum SliceError {
     /// No wall was asked for, so there would be no path.
     #[error("at least one wall is needed")]
     NoWalls,
+    /// More than one wall was asked for of a sheet, which is itself the path of its only one.
+    #[error("a sheet without thickness has one wall, not {walls}")]
+    SheetWalls {
+        /// How many were asked for.
+        walls: usize,
+    },
     /// The output grid is too coarse for the bead: loops could not be kept apart on it.
     #[error("an output grid of {grid} mm is too coarse for a bead of {width} mm (at most {limit} mm)")]
     CoarseGrid {

@@ -15,7 +15,7 @@ pub struct Layer {
     #[cfg_attr(feature = "serde", serde(with = "crate::rings"))]
     pub outline: MultiPolygon<f64>,
     /// Where a bead fits: the outline inset by w/2. Its rings are the first walls, but for the lines there and back along
-    /// what is too thin.
+    /// what is too thin. Of a sheet ([`SliceSettings::surface`](crate::SliceSettings::surface)) it is what its section goes round.
     #[cfg_attr(feature = "serde", serde(with = "crate::rings"))]
     pub walled: MultiPolygon<f64>,
     /// The wall loops: simple, pairwise disjoint, on the output grid.
@@ -130,6 +130,15 @@ pub enum Loss {
         /// The part's area in square millimetres.
         area: f64,
     },
+    /// The section of a sheet has two ends: it is printed there and back, as two lanes in one bead.
+    OpenSheet {
+        /// The layer.
+        layer: usize,
+        /// A point on it.
+        at: DVec2,
+        /// Its length in millimetres.
+        length: f64,
+    },
     /// Wall loops that would touch themselves or others after rounding, and were left out.
     Unsound {
         /// The layer.
@@ -153,6 +162,7 @@ impl Loss {
             | Self::Vanished { layer, .. }
             | Self::Narrow { layer, .. }
             | Self::Branch { layer, .. }
+            | Self::OpenSheet { layer, .. }
             | Self::Unsound { layer, .. } => layer,
         }
     }
@@ -168,6 +178,7 @@ impl Loss {
             | Self::Vanished { at, .. }
             | Self::Narrow { at, .. }
             | Self::Branch { at, .. }
+            | Self::OpenSheet { at, .. }
             | Self::Unsound { at, .. } => at,
         }
     }

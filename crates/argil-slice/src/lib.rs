@@ -28,6 +28,7 @@ mod region;
 mod rings;
 mod section;
 mod settings;
+mod sheet;
 mod simplification;
 mod slicing;
 mod soundness;

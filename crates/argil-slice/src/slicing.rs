@@ -4,6 +4,7 @@ use crate::layer::{Layer, Loss};
 use crate::region::{perimeter, signed_area, wound_region};
 use crate::section::Sweep;
 use crate::settings::MOST_LAYERS;
+use crate::sheet::{Sheet, SheetSection};
 use crate::wall::{Walls, walls};
 use crate::{SliceError, SliceSettings};
 use argil_mesh::Mesh;
@@ -87,6 +88,9 @@ struct UnclosedSection {
 impl UnclosedSection {
     /// The layer with its walls; this is most of the work, and that of one layer is none of another's.
     fn layer(mut self, settings: &SliceSettings) -> Layer {
+        if settings.surface {
+            return self.sheet(settings);
+        }
         let index = self.index;
         let width = settings.width;
         let mut losses = Vec::new();
@@ -111,6 +115,26 @@ impl UnclosedSection {
         losses.append(&mut inset.losses);
         let Walls { walled, walls, .. } = inset;
         Layer { index, cut_z: self.cut_z, print_z: self.print_z, outline, walled, walls, losses }
+    }
+
+    /// The layer of a sheet. Gaps that a bead covers are closed; wider ones are where the sheet ends.
+    fn sheet(mut self, settings: &SliceSettings) -> Layer {
+        let (layer, width) = (self.index, settings.width);
+        let sure = settings.gap * width;
+        let nothing = MultiPolygon(Vec::new());
+        let mut closed = close_gaps(&mut self.open, &Closing { limit: sure, sure, solid: &nothing });
+        self.contours.append(&mut closed.contours);
+        let (doubled, contours): (Vec<_>, Vec<_>) =
+            self.contours.into_iter().partition(|contour| is_sheet(contour, width));
+        let (open, specks): (Vec<_>, Vec<_>) =
+            self.open.into_iter().partition(|chain| chain.length() > SPECK * width);
+        let section = SheetSection { layer, contours: &contours, doubled: &doubled, open: &open };
+        let Sheet { outline, walls: Walls { walled, walls, mut losses } } = section.sheet(settings);
+        let seen = closed.gaps.into_iter().filter(|&(_, gap)| gap > settings.grid);
+        losses.extend(seen.map(|(at, gap)| Loss::ClosedGap { layer, at, gap }));
+        let strays = specks.iter().filter_map(|chain| Some((*chain.points.last()?, chain.length())));
+        losses.extend(strays.map(|(at, length)| Loss::Stray { layer, at, length }));
+        Layer { index: layer, cut_z: self.cut_z, print_z: self.print_z, outline, walled, walls, losses }
     }
 
     /// Closes contours across gaps: narrow ones first, then wider ones, where that leaves little to guess.

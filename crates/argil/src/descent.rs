@@ -250,6 +250,7 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
             roots: cycle.roots,
             wall_length: cycle.length_of(Leg::Wall) - fill_length,
             fill_length,
+            infill_length: model.sparse_length(),
             widest_bare: model.widest_bare,
             free_length: cycle.length_of(Leg::Support) + cycle.length_of(Leg::Joint),
             pulled_back,

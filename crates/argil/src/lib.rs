@@ -63,9 +63,9 @@ pub use argil_taut as taut;
 #[cfg(feature = "serde")]
 pub use document::Document;
 pub use error::{LayerFault, PlanError};
-pub use plan::{Climb, LayerReport, LevelCause, Plan, SkirtLaid, StageTimes};
+pub use plan::{Climb, InfillChoice, LayerReport, LevelCause, Plan, SkirtLaid, StageTimes};
 pub use planner::{Planner, Progress};
-pub use settings::{Bed, Material, Settings, Skirt};
+pub use settings::{Bed, Infill, Material, Settings, Skirt};
 
 /// The examples of the pages for readers, so that they stay true.
 #[cfg(doctest)]

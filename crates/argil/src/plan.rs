@@ -18,6 +18,8 @@ pub struct Plan {
     pub losses: Vec<Loss>,
     /// The skirt as it was laid; `None` where none was asked for, or where there is no room for one or no way from it to the part.
     pub skirt: Option<SkirtLaid>,
+    /// What [`Infill::Auto`](crate::Infill::Auto) has chosen; `None` for other plans.
+    pub infill: Option<InfillChoice>,
     /// Where the time went. The only part of a plan that differs from run to run.
     pub times: StageTimes,
 }
@@ -32,6 +34,18 @@ pub struct SkirtLaid {
     pub distance: f64,
     /// Length, mm, with the way to the part.
     pub length: f64,
+}
+
+/// Which of two plans was taken: the shorter strand.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct InfillChoice {
+    /// Whether it is the one with infill.
+    pub taken: bool,
+    /// Length of the strand with infill, mm; `None` where there is no such plan.
+    pub with_mm: Option<f64>,
+    /// Length of the strand that holds the same with support from the walls, mm; `None` where there is no such plan.
+    pub without_mm: Option<f64>,
 }
 
 /// What happened in a layer.
@@ -49,9 +63,12 @@ pub struct LayerReport {
     pub roots: usize,
     /// Length of walls, mm.
     pub wall_length: f64,
-    /// Length of fill, mm: floors, roofs and undersides.
+    /// Length of fill, mm: floors, roofs, undersides and infill.
     #[cfg_attr(feature = "serde", serde(default))]
     pub fill_length: f64,
+    /// Of it, infill.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub infill_length: f64,
     /// Diameter of the widest disc in a filled zone that stays bare, mm; 0 where none is wider than a third of a bead.
     #[cfg_attr(feature = "serde", serde(default))]
     pub widest_bare: f64,

@@ -28,6 +28,21 @@ impl Default for Material {
     }
 }
 
+/// What is laid inside of the walls, beside floors and skins.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum Infill {
+    /// Nothing: what has to be held inside is held by strand from the walls.
+    #[default]
+    None,
+    /// Lanes all over, of so large a share of clay: above 0, at most 1.
+    Ratio(f64),
+    /// Lanes below what is filled, as dense and as far down as it needs to be held, or nothing: whichever makes the shorter strand. Both
+    /// are planned.
+    Auto,
+}
+
 /// Turns on the bed round the lowest layer, laid before it and without a break: paste comes evenly when the part begins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -105,6 +120,16 @@ pub struct Settings {
     /// Turns on the bed before the part, in the same strand.
     #[cfg_attr(feature = "serde", serde(default))]
     pub skirt: Option<Skirt>,
+    /// Whether rings of floors and skins that lie in each other without a branch become double spirals, which hardly turn back.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub spirals: bool,
+    /// What is laid inside of the walls.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub infill: Infill,
+    /// Whether the mesh is a sheet without thickness, as for vases in a spiral: its sections are the walls' paths themselves. It has one wall;
+    /// it may have a floor, but neither skins nor infill, since nobody knows which side of it is inside.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub surface: bool,
     /// What the paste bears.
     pub material: Material,
     /// Step of the output coordinates, mm. Planning rounds to it before the last checks.
@@ -124,6 +149,9 @@ const REACH: f64 = 0.79;
 /// Radius of the disc about a point that needs support, as a share of `ε_across`. The strand may pass anywhere in it;
 /// what is left of `ε_across` becomes a held length along the strand, so that points can lie farther apart.
 const ENVELOPE: f64 = 0.65;
+
+/// Share of what the paste bears that sparse fill relies on, as support does.
+const HELD: f64 = 0.95;
 
 /// How much of the envelope demands may use up when they are moved before smoothing.
 const SLACK: f64 = 0.9;
@@ -158,6 +186,9 @@ impl Settings {
             skin: 0,
             spiral: false,
             skirt: None,
+            spirals: false,
+            infill: Infill::None,
+            surface: false,
             material: Material::default(),
             grid: 1e-4,
         }
@@ -192,6 +223,25 @@ impl Settings {
         }
         if self.walls == 0 || self.walls > 100 {
             return Err(PlanError::Setting { name: "walls", value: self.walls as f64, expected: "1 to 100" });
+        }
+        if let Infill::Ratio(value) = self.infill
+            && !(value > 0.0 && value <= 1.0)
+        {
+            return Err(PlanError::Setting { name: "infill", value, expected: "above 0 and at most 1" });
+        }
+        let for_solids = [("walls", self.walls.saturating_sub(1)), ("skin", self.skin)];
+        if let Some((name, _)) = for_solids.into_iter().find(|&(_, asked)| self.surface && asked > 0) {
+            let value = if name == "walls" { self.walls } else { self.skin } as f64;
+            return Err(PlanError::Setting {
+                name,
+                value,
+                expected: "left out for a sheet without thickness",
+            });
+        }
+        if self.surface && self.infill != Infill::None {
+            let value = if let Infill::Ratio(share) = self.infill { share } else { 1.0 };
+            let expected = "left out for a sheet without thickness";
+            return Err(PlanError::Setting { name: "infill", value, expected });
         }
         for (name, value) in [("floor", self.floor), ("skin", self.skin)] {
             if value > MOST_CLOSED {
@@ -228,6 +278,7 @@ impl Settings {
             width: self.width,
             walls: self.walls,
             grid: self.grid,
+            surface: self.surface,
             ..SliceSettings::default()
         }
     }
@@ -281,6 +332,17 @@ impl Settings {
             reach: REACH * self.width,
             ..SeamSettings::for_width(self.width)
         }
+    }
+
+    /// Lanes so far apart hold what lies across them: it bridges the gap, but for what either lane holds beside itself.
+    pub(crate) fn bridged(&self) -> f64 {
+        let Criterion { across, along } = self.criterion();
+        (HELD * (along + 2.0 * across)).max(self.width)
+    }
+
+    /// How far an end of a lane may lie beyond the one below, mm.
+    pub(crate) fn retreat(&self) -> f64 {
+        HELD * self.criterion().across
     }
 
     /// How far a strand may pass from a point that it supports, mm.

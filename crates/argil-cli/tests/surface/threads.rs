@@ -182,6 +182,8 @@ pub(crate) fn types() -> impl IntoIterator<Item = &'static str> {
         argil::Climb,
         argil::Document<argil::Settings>,
         argil::LayerFault,
+        argil::Infill,
+        argil::InfillChoice,
         argil::LayerReport,
         argil::LevelCause,
         argil::Material,
