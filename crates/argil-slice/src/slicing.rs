@@ -5,6 +5,7 @@ use crate::region::{perimeter, signed_area, wound_region};
 use crate::section::Sweep;
 use crate::settings::MOST_LAYERS;
 use crate::wall::{Walls, walls};
+use crate::winding::unlike_one;
 use crate::{SliceError, SliceSettings};
 use argil_mesh::Mesh;
 use geo::{Distance, Euclidean};
@@ -95,7 +96,8 @@ impl UnclosedSection {
         }
         let sheets: Vec<Vec<DVec2>> =
             self.contours.iter().filter(|contour| is_sheet(contour, width)).cloned().collect();
-        let outline = wound_region(self.contours, LEAST_AREA);
+        let outline = wound_region(&self.contours, LEAST_AREA);
+        losses.extend(unlike_one(index, &self.contours, &outline, width));
         for chain in &self.open {
             let Some(&at) = chain.points.last() else { continue };
             let length = chain.length();
@@ -123,7 +125,7 @@ impl UnclosedSection {
         let mut gaps = closed.gaps;
         let limit = settings.hole * settings.width;
         if !self.open.is_empty() && limit > sure {
-            let solid = wound_region(self.contours.clone(), LEAST_AREA);
+            let solid = wound_region(&self.contours, LEAST_AREA);
             self.open.retain(|chain| match chain.points.last() {
                 Some(&at) if runs_inside(chain, &solid) => {
                     losses.push(Loss::Stray { layer: self.index, at, length: chain.length() });
