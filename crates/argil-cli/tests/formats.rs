@@ -208,11 +208,7 @@ fn layers_of_another_program_are_printed_as_they_are() {
             "contour 0 of layer 0",
         ),
         ("{\"unit\": \"ell\", \"layer_height\": 1, \"layers\": []}".to_owned(), &[], "unit: "),
-        (
-            "{\"layer_height\": 1, \"layers\": [[[[0,1,2]]]]}".to_owned(),
-            &[],
-            "tower.json, read as layers in JSON",
-        ),
+        ("{\"layer_height\": 1, \"layers\": [[[[0,1,2]]]]}".to_owned(), &[], "tower.json, read as layers"),
     ] {
         let (_, said) = planned(&folder, "tower.json", text.as_bytes(), extra, BAD_INPUT);
         assert!(said.contains(says), "no `{says}` in\n{said}");
