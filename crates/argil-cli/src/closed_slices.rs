@@ -19,9 +19,18 @@ pub(crate) struct ClosedSlices<S> {
 
 impl<S: Slice> Slice for ClosedSlices<S> {
     fn layers(&mut self, mesh: &Mesh, settings: &Settings) -> Result<Vec<Layer>, SliceError> {
-        let layers = self.slice.layers(mesh, settings)?;
+        self.layers_while(mesh, settings, &mut || true).map(Option::unwrap_or_default)
+    }
+
+    fn layers_while(
+        &mut self,
+        mesh: &Mesh,
+        settings: &Settings,
+        goes_on: &mut dyn FnMut() -> bool,
+    ) -> Result<Option<Vec<Layer>>, SliceError> {
+        let Some(layers) = self.slice.layers_while(mesh, settings, goes_on)? else { return Ok(None) };
         check_closed(&layers, self.strict)?;
         self.kept = self.keeps.then(|| prisms(&layers));
-        Ok(layers)
+        Ok(Some(layers))
     }
 }

@@ -42,5 +42,5 @@ pub use layer::{Layer, Loss, WallLoop, outer_walls};
 pub use openings::check_closed;
 pub use prisms::prisms;
 pub use settings::SliceSettings;
-pub use slicing::slice;
+pub use slicing::{slice, slice_while};
 pub use stack::stacked;
