@@ -197,7 +197,15 @@ impl Sets for Vec<Place> {
     fn opened(&mut self, cause: ContactCause, layer: i64) -> usize {
         let place = self.len();
         let (length, moment) = (0.0, DVec2::ZERO);
-        self.push(Place { part_of: place, cause, first: layer, last: layer, length, moment, touches: Vec::new() });
+        self.push(Place {
+            part_of: place,
+            cause,
+            first: layer,
+            last: layer,
+            length,
+            moment,
+            touches: Vec::new(),
+        });
         place
     }
 }

@@ -197,7 +197,8 @@ fn bodies_that_overlap_are_one() {
     let (status, said, report) = planned("hollow", &hollow, &["--strict"]);
     assert_eq!(status, Some(DONE), "{said}");
     let wall = report.unwrap()["wall_mm"].as_f64().unwrap();
-    assert!((wall - 4.0 * (4.0 * 17.0 + 4.0 * 11.0)).abs() < 1.0, "{wall}");
+    // The outer wall, and round the cavity one that turns about its corners.
+    assert!((4.0 * (68.0 + 32.0)..4.0 * (68.0 + 44.0)).contains(&wall), "{wall}");
 }
 
 /// A box whose sides are cut into strips of this width along x, so that it has many triangles.
@@ -346,7 +347,7 @@ fn files_that_are_cut_short_or_of_the_other_byte_order() {
         ("cut", &whole[..84 + 5 * 50], "12 triangles, but the file holds 5"),
         ("cut-inside", &whole[..84 + 5 * 50 + 17], "5 (17 bytes over)"),
         ("other-order", &swapped[..], "declares 201326592 triangles"),
-        ("mixed-order", &half_swapped[..], "coordinate"),
+        ("mixed-order", &half_swapped[..], "less than half a layer"),
         ("text-cut", &text[..], "line 5: expected"),
     ] {
         let folder = folder(&format!("file-{name}"));

@@ -37,7 +37,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
 
     // The planner is none the worse for it, and being watched changes nothing.
     let mut told = Vec::new();
-    let mut asked = 0;
+    let mut asked = 0_usize;
     let watched = planner.plan_controlled(&mesh, &settings, &mut |progress| {
         asked += 1;
         if progress != Progress::Working {
@@ -56,7 +56,10 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
             count += 1;
             if count == end { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
-        assert!(matches!(outcome, Err(PlanError::Cancelled)) && count == end, "{end} of {asked}: {outcome:?}");
+        assert!(
+            matches!(outcome, Err(PlanError::Cancelled)) && count == end,
+            "{end} of {asked}: {outcome:?}"
+        );
     }
     Ok(())
 }

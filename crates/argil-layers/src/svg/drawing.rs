@@ -29,15 +29,16 @@ const SILENT: [&str; 11] = [
 /// Points of all contours together: a quarter of what the layers of a mesh of the largest size may have.
 pub(super) const MOST_POINTS: usize = 50_000_000;
 
-/// How many bytes of a file are looked at to tell whether it is a drawing.
-const HEAD: usize = 4096;
+/// How many bytes of a file are looked at to tell whether it is a drawing: more than any preface.
+const HEAD: usize = 1 << 16;
 
-/// Whether bytes are XML, and so an SVG file if they are anything that is read here: no text of a mesh begins like that.
+/// Whether bytes begin as an SVG file does: as XML, with an element of that name soon.
 #[must_use]
 pub fn is_svg(bytes: &[u8]) -> bool {
     let head = bytes.get(..HEAD).unwrap_or(bytes);
     let head = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head);
-    head.trim_ascii_start().starts_with(b"<")
+    let names_itself = |name: &[u8]| head.windows(name.len()).any(|window| window == name);
+    head.trim_ascii_start().starts_with(b"<") && (names_itself(b"<svg") || names_itself(b":svg"))
 }
 
 /// The layers of a drawing.
