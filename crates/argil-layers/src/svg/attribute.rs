@@ -14,7 +14,7 @@ pub(super) fn name(node: Node<'_, '_>) -> String {
 }
 
 /// An attribute that cannot be read.
-pub(super) fn unreadable(node: Node<'_, '_>, attribute: &'static str, why: impl ToString) -> LayersError {
+pub(super) fn unreadable(node: Node<'_, '_>, attribute: &'static str, why: &dyn ToString) -> LayersError {
     LayersError::Attribute { line: line(node), element: name(node), name: attribute, why: why.to_string() }
 }
 
@@ -24,7 +24,7 @@ pub(super) fn parsed<T: std::str::FromStr<Err: std::fmt::Display>>(
     attribute: &'static str,
 ) -> Result<Option<T>, LayersError> {
     let text = node.attribute(attribute);
-    text.map(|text| text.trim().parse().map_err(|why| unreadable(node, attribute, why))).transpose()
+    text.map(|text| text.trim().parse().map_err(|why: T::Err| unreadable(node, attribute, &why))).transpose()
 }
 
 /// A length in the units of the drawing; 0 where it is left out.
@@ -32,7 +32,7 @@ pub(super) fn coordinate(node: Node<'_, '_>, attribute: &'static str) -> Result<
     match parsed::<Length>(node, attribute)? {
         None => Ok(0.0),
         Some(Length { number, unit: LengthUnit::None | LengthUnit::Px }) => Ok(number),
-        Some(_) => Err(unreadable(node, attribute, "a number without a unit is needed")),
+        Some(_) => Err(unreadable(node, attribute, &"a number without a unit is needed")),
     }
 }
 

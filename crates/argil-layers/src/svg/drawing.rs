@@ -80,7 +80,7 @@ fn groups<'a, 'i>(
         match groups[..] {
             [] => return Err(LayersError::NoLayers),
             [only] if wraps_layers(only) => {
-                transform = transform * transform_of(only)?;
+                transform *= transform_of(only)?;
                 parent = only;
             }
             _ => return Ok((groups, transform)),

@@ -16,7 +16,7 @@ pub(super) fn layer_height(groups: &[Node<'_, '_>]) -> Result<Option<f64>, Layer
         let value = |group: &Node<'_, '_>| {
             let text = group.attribute((SLIC3R, name))?;
             let number = text.trim().parse().ok().filter(|value: &f64| value.is_finite());
-            Some(number.ok_or_else(|| unreadable(*group, name, format!("`{text}` is no length"))))
+            Some(number.ok_or_else(|| unreadable(*group, name, &format!("`{text}` is no length"))))
         };
         groups.iter().map(value).collect::<Option<Result<Vec<f64>, _>>>().transpose()
     };

@@ -36,7 +36,7 @@ pub(super) fn page(root: Node<'_, '_>, unit: Option<Unit>) -> Result<Page, Layer
     };
     let is_usable = factor.is_normal() && factor > 0.0 && corner.is_finite();
     if !is_usable {
-        return Err(unreadable(root, "viewBox", "the page has no size"));
+        return Err(unreadable(root, "viewBox", &"the page has no size"));
     }
     let flip = DAffine2::from_scale(DVec2::new(factor, -factor));
     Ok(Page {
@@ -57,7 +57,7 @@ fn scale(
     };
     match [sides[0].map(|side| side / view.w), sides[1].map(|side| side / view.h)] {
         [Some(x), Some(y)] if (x / y - 1.0).abs() > SAME => {
-            Err(unreadable(root, "viewBox", format!("its unit is {x} mm in width and {y} mm in height")))
+            Err(unreadable(root, "viewBox", &format!("its unit is {x} mm in width and {y} mm in height")))
         }
         [x, y] => Ok(x.or(y)),
     }

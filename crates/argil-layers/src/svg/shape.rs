@@ -52,14 +52,14 @@ impl Shape<'_, '_> {
         let text = self.node.attribute("d").unwrap_or_default();
         // Arcs of any radius would be made into any number of curves.
         for segment in PathParser::from(text) {
-            let segment = segment.map_err(|why| unreadable(self.node, "d", why))?;
+            let segment = segment.map_err(|why| unreadable(self.node, "d", &why))?;
             if !numbers(&segment).into_iter().all(|number| number.abs() <= LARGEST_NUMBER) {
                 return Err(self.far());
             }
         }
         let mut at = DVec2::ZERO;
         for segment in SimplifyingPathParser::from(text) {
-            match segment.map_err(|why| unreadable(self.node, "d", why))? {
+            match segment.map_err(|why| unreadable(self.node, "d", &why))? {
                 SimplePathSegment::MoveTo { x, y } => {
                     pen.end(false)?;
                     at = DVec2::new(x, y);
@@ -90,10 +90,10 @@ impl Shape<'_, '_> {
     fn polygon(&self, pen: &mut Pen<'_, '_, '_>, is_closed: bool) -> Result<(), LayersError> {
         let text = self.node.attribute("points").unwrap_or_default();
         if svgtypes::NumberListParser::from(text).any(|number| number.is_err()) {
-            return Err(unreadable(self.node, "points", "a list of numbers is needed"));
+            return Err(unreadable(self.node, "points", &"a list of numbers is needed"));
         }
         if svgtypes::NumberListParser::from(text).count() % 2 == 1 {
-            return Err(unreadable(self.node, "points", "the last point has no y"));
+            return Err(unreadable(self.node, "points", &"the last point has no y"));
         }
         for (x, y) in PointsParser::from(text) {
             pen.to(self.placed(DVec2::new(x, y)))?;
@@ -124,7 +124,7 @@ impl Shape<'_, '_> {
         let axes = [DVec2::X, DVec2::Y].map(|axis| self.transform.transform_vector2(axis * radii));
         // The longest radius is at most the diagonal of the half axes.
         let radius = axes[0].length().hypot(axes[1].length());
-        if !(radius <= LARGEST) {
+        if radius.is_nan() || radius > LARGEST {
             return Err(self.far());
         }
         let ratio = (self.chord_error.max(LEAST_CHORD_ERROR) / radius.max(LEAST_CHORD_ERROR)).min(0.5);
@@ -164,6 +164,11 @@ fn numbers(segment: &PathSegment) -> [f64; 6] {
     }
 }
 
+/// Whether a point is a place at all; what is not a number is none.
+fn is_near(p: DVec2) -> bool {
+    p.to_array().iter().all(|value| value.abs() <= LARGEST)
+}
+
 /// Draws contours point by point.
 struct Pen<'s, 'a, 'i> {
     shape: &'s Shape<'a, 'i>,
@@ -175,8 +180,7 @@ struct Pen<'s, 'a, 'i> {
 
 impl Pen<'_, '_, '_> {
     fn to(&mut self, p: DVec2) -> Result<(), LayersError> {
-        // The negated comparison also catches what is not a number.
-        if !(p.abs().max_element() <= LARGEST) {
+        if !is_near(p) {
             return Err(self.shape.far());
         }
         self.left = self
@@ -191,7 +195,7 @@ impl Pen<'_, '_, '_> {
     ///
     /// A chord over a step of 1/n lies beside the curve by at most an eighth of the second derivative, divided by n².
     fn curve(&mut self, [start, a, b, end]: [DVec2; 4]) -> Result<(), LayersError> {
-        if ![a, b].iter().all(|p| p.abs().max_element() <= LARGEST) {
+        if ![a, b].into_iter().all(is_near) {
             return Err(self.shape.far());
         }
         let bend = (start - 2.0 * a + b).length().max((a - 2.0 * b + end).length());
