@@ -9,6 +9,7 @@
 mod capsule;
 mod closed_curve;
 mod error;
+mod grid;
 mod held_spans;
 mod point_index;
 mod segment;
@@ -19,6 +20,7 @@ pub use capsule::SegmentPart;
 pub use closed_curve::{ClosedCurve, NearestOnCurve, OnCurve};
 pub use error::CurveError;
 pub use glam::DVec2;
+pub use grid::on_grid;
 pub use held_spans::{ArcSpan, gaps, held_spans};
 pub use point_index::PointIndex;
 pub use segment::{NearestOnSegment, Segment};

@@ -1,6 +1,6 @@
 //! Rings: closed paths one bead apart, before they are joined.
 
-use argil_curve::{ClosedCurve, DVec2, SegmentIndex};
+use argil_curve::{ClosedCurve, DVec2, SegmentIndex, on_grid};
 use geo::Simplify;
 use geo_types::{Coord, LineString, Polygon};
 
@@ -38,10 +38,9 @@ pub(crate) fn ring_on_grid(points: Vec<DVec2>, width: f64, grid: f64, least: f64
 /// The points on the grid, without sides that are too short.
 pub(crate) fn rounded(points: &[DVec2], grid: f64) -> Vec<DVec2> {
     let least = LEAST_SIDE * grid;
-    let steps = 1.0 / grid;
     let mut kept: Vec<DVec2> = Vec::with_capacity(points.len());
     for &point in points {
-        let point = (point * steps).round() / steps;
+        let point = on_grid(point, grid);
         if kept.last().is_none_or(|last| last.distance(point) >= least) {
             kept.push(point);
         }

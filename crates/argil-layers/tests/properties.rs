@@ -131,12 +131,18 @@ fn pages_state_units() {
         let layers = svg(drawing.as_bytes(), &SvgSettings { unit, ..SvgSettings::default() })?;
         Ok((layers.extent(), layers.layers[0][0][0].to_array(), layers.has_unit))
     };
-    let plain = |page: &str| with(page, None).unwrap();
-    assert_eq!(plain(""), (96.0, [10.0, 0.0], false));
-    assert_eq!(plain("width=\"200\" height=\"100px\""), (96.0, [10.0, 100.0], false));
-    assert_eq!(plain("width=\"25mm\" viewBox=\"10 -4 200 100\""), (12.0, [0.0, 12.0], true));
-    assert_eq!(plain("width=\"2in\" height=\"1in\""), (25.4, [10.0 / 96.0 * 25.4, 25.4], true));
-    assert_eq!(plain("width=\"100%\" viewBox=\"0 0 200 96\""), (96.0, [10.0, 96.0], false));
+    let inch_in_pixels = 25.4 / 96.0;
+    for (page, extent, corner, has_unit) in [
+        ("", 96.0, [10.0, 0.0], false),
+        ("width=\"200\" height=\"100px\"", 96.0, [10.0, 100.0], false),
+        ("width=\"25mm\" viewBox=\"10 -4 200 100\"", 12.0, [0.0, 12.0], true),
+        ("width=\"2in\" height=\"1in\"", 25.4, [10.0 * inch_in_pixels, 25.4], true),
+        ("width=\"100%\" viewBox=\"0 0 200 96\"", 96.0, [10.0, 96.0], false),
+    ] {
+        let found = with(page, None).unwrap();
+        let [x, y] = [0, 1].map(|axis| (found.1[axis] - corner[axis]).abs());
+        assert!((found.0 - extent).abs() + x + y < 1e-9 && found.2 == has_unit, "{page}: {found:?}");
+    }
     assert_eq!(with("width=\"20mm\" viewBox=\"0 0 200 100\"", Some(Unit::Centimetre)).unwrap().0, 960.0);
     for page in [
         "width=\"20mm\" height=\"20mm\" viewBox=\"0 0 200 100\"",

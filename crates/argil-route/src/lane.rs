@@ -6,7 +6,7 @@
 //! grid, the offsets of the vertices concerned are halved and in the end dropped: strands that
 //! coincide touch, but do not cross.
 
-use argil_curve::{DVec2, self_crossings};
+use argil_curve::{DVec2, on_grid, self_crossings};
 
 use crate::circuit::{Circuit, Visit};
 use crate::cycle::{Cycle, Leg};
@@ -102,10 +102,6 @@ fn sector(rotation: &[EdgeEnd], visit: Visit) -> Sector {
     }
 }
 
-pub(crate) fn rounded(p: DVec2, grid: f64) -> DVec2 {
-    (p / grid).round() * grid
-}
-
 fn polyline(
     graph: &Multigraph,
     circuit: &Circuit,
@@ -129,7 +125,7 @@ fn polyline(
         }
         let middle = corner.len() / 2;
         for (q, &at) in corner.iter().enumerate() {
-            let at = if fixed { at } else { rounded(at, grid) };
+            let at = if fixed { at } else { on_grid(at, grid) };
             let carries = if carries && q == middle { graph.demand[vertex as usize] } else { None };
             push(&mut drawn, Drawn { at, vertex: Some(vertex), fixed, carries, leg: outgoing.leg });
         }
@@ -245,7 +241,7 @@ pub(crate) fn subdivided(drawn: &[Drawn], spacing: f64, grid: f64, roots: usize)
         }
         let pieces = (d.at.distance(next) / spacing).ceil().clamp(1.0, 1e6) as usize;
         for piece in 1..pieces {
-            let at = rounded(d.at.lerp(next, piece as f64 / pieces as f64), grid);
+            let at = on_grid(d.at.lerp(next, piece as f64 / pieces as f64), grid);
             if cycle.points.last() != Some(&at) && at != next {
                 cycle.points.push(at);
                 cycle.fixed.push(false);

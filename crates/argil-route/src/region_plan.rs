@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use argil_curve::{ClosedCurve, DVec2, SegmentIndex};
+use argil_curve::{ClosedCurve, DVec2, SegmentIndex, on_grid};
 use argil_graph::{DistanceMatrix, FreeSpace, Nodes, PathFinder, PathGraph};
 #[cfg(feature = "rayon")]
 use rayon::prelude::*;
@@ -462,7 +462,7 @@ impl RegionView<'_> {
         };
         discs.relax(&mut points, &neighbours);
         points.truncate(count);
-        Ok(points.into_iter().map(|p| (p / s.grid).round() * s.grid).collect())
+        Ok(points.into_iter().map(|p| on_grid(p, s.grid)).collect())
     }
 }
 

@@ -1,13 +1,13 @@
 //! The paper's own path planning: one connection point a wall, one tour a region, walls spliced in.
 
-use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex};
+use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex, on_grid};
 use argil_graph::{DistanceMatrix, FreeSpace, Nodes, PathGraph};
 use argil_tour::{Metric, shortest_tour};
 
 use crate::attachment::attach;
 use crate::cycle::{Cycle, Leg};
 use crate::joint::closest;
-use crate::lane::{Drawn, push, rounded, subdivided};
+use crate::lane::{Drawn, push, subdivided};
 use crate::layer::{clear_of, curves, dot};
 use crate::{LayerInput, Region, RouteError, RouteSettings, regions};
 
@@ -259,7 +259,7 @@ impl Site<'_> {
             } else {
                 let path = graph.path(from, to).ok_or_else(|| unreachable(to))?;
                 let inner = path.get(1..path.len().saturating_sub(1)).unwrap_or_default();
-                inner.iter().map(|&v| rounded(graph.position(v), s.grid)).collect()
+                inner.iter().map(|&v| on_grid(graph.position(v), s.grid)).collect()
             };
             hops.push(Hop { stop: stops[here].1, bends });
         }

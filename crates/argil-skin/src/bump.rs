@@ -1,6 +1,6 @@
 //! Lanes of a fill that give way to what the layer above needs.
 
-use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex};
+use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex, on_grid};
 
 use crate::ModelLoop;
 use crate::apart::is_apart;
@@ -157,7 +157,7 @@ impl Lanes<'_> {
         let curve = self.curves[number].as_ref()?;
         let near = curve.on_segment(own, need);
         let share = ((distance - 0.5 * within) / distance).min(most / distance);
-        let on_grid = |p: DVec2| (p / grid).round() * grid;
+        let on_grid = |p: DVec2| on_grid(p, grid);
         let tip = on_grid(near.point.lerp(need, share));
         HALVES.iter().find_map(|half| {
             let half = half * width;

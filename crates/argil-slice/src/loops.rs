@@ -1,6 +1,6 @@
 //! A layer of loops that come from elsewhere.
 
-use argil_curve::ClosedCurve;
+use argil_curve::{ClosedCurve, on_grid};
 use geo_types::{Coord, LineString, MultiPolygon, Polygon};
 use glam::DVec2;
 
@@ -30,7 +30,7 @@ impl Layer {
     /// ```
     #[must_use]
     pub fn of_loops(index: usize, print_z: f64, height: f64, loops: &[Vec<DVec2>], grid: f64) -> Self {
-        let on_grid = |p: &DVec2| if grid > 0.0 { (*p / grid).round() * grid } else { *p };
+        let on_grid = |p: &DVec2| on_grid(*p, grid);
         let points: Vec<Vec<DVec2>> = loops.iter().map(|l| l.iter().map(on_grid).collect()).collect();
         let curves: Vec<Option<ClosedCurve>> =
             points.iter().map(|points| ClosedCurve::new(points.clone()).ok()).collect();

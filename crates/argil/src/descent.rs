@@ -141,7 +141,7 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
         let guide = start.and_then(|start| hold_start(start, &mut supports, settings));
         let field = SafeguardField::new(safeguard, 2.0 * settings.width);
         let mut barred = Vec::new();
-        let site = Site { layer, model, curves, walls, supports, field, above, start, guide };
+        let mut site = Site { layer, model, curves, walls, supports, field, above, start, guide };
 
         let walled = Walled::new(&layer.walled, settings.width);
         let passages = |done: &Attempt| walled.passages(&done.curve);
@@ -153,6 +153,10 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
                 break;
             }
             barred.append(&mut flawed);
+            if let (Err(_), Some(guide)) = (&best, site.guide.take()) {
+                // What leads on from the start may be what stands in the way.
+                site.supports.truncate(guide);
+            }
             let next = self.attempt(&site, &barred);
             flawed = places(&next, passages);
             if next.is_ok() && flawed.len() < fewest {

@@ -1,6 +1,6 @@
 //! Where each layer begins, and the steps from layer to layer.
 
-use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex};
+use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex, on_grid};
 use argil_route::Leg;
 use argil_seam::SeamError;
 use argil_strand::{Move, Role};
@@ -86,13 +86,14 @@ enum Roots {
 }
 
 /// The best first. The last forbids no place.
-fn levels(longest: f64) -> [Level; 5] {
+fn levels(longest: f64) -> [Level; 6] {
     let [far, near] = ROOT_REACH;
     let short = SHORT * longest;
     let level = |reach, roots| Level { reach, roots };
     [
         level(short, Roots::Beyond(far)),
         level(short, Roots::Beyond(near)),
+        level(short, Roots::Graded),
         level(longest, Roots::Beyond(far)),
         level(longest, Roots::Beyond(near)),
         level(longest, Roots::Graded),
@@ -281,7 +282,7 @@ fn opened(layer: &PlannedLayer, start: f64, grid: f64) -> Opened {
     } else if near(points[(on.segment + 1) % n]) {
         (points[(on.segment + 1) % n], on.segment + 1)
     } else {
-        ((exact / grid).round() * grid, on.segment)
+        (on_grid(exact, grid), on.segment)
     };
     let mut moves: Vec<Move> =
         (0..n).map(|k| Move { to: points[(first + k + 1) % n], role: role(first + k) }).collect();
