@@ -16,7 +16,7 @@ const MOST_TRIANGLES: usize = 20_000_000;
 const MOST_POINTS: usize = 1_000_000;
 
 /// Bytes that slicing is reckoned to take for a triangle and for a point that a layer cuts: above what was measured. Wavy vases as binary STL took at
-/// most 43 MB (251,000 triangles, 100,000 points; 45 by the estimate) 197 MB (1,252,000 triangles, 1,000,000 points; 258) and
+/// most 43 MB (251,000 triangles, 100,000 points; 45 by the estimate), 197 MB (1,252,000 triangles, 1,000,000 points; 258) and
 /// 932 MB (5,004,000 triangles, 8,002,000 points; 1,311).
 const BYTES_PER_TRIANGLE: usize = 150;
 const BYTES_PER_POINT: usize = 70;
