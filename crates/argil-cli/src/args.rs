@@ -183,7 +183,7 @@ impl From<UnitArg> for Unit {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct PlanArgs {
-    /// The model: an STL, OBJ, PLY or 3MF file, layers in JSON, or sample:NAME.
+    /// The model: an STL, OBJ, PLY or 3MF file, layers in SVG or JSON, or sample:NAME.
     #[arg(value_name = "MODEL")]
     pub(crate) model: String,
     /// Where the g-code goes; for a robot cell, the table of poses.
@@ -247,6 +247,13 @@ pub(crate) struct PlanArgs {
     /// Write a table of poses for robot cells as well.
     #[arg(long, value_name = "OUT.csv")]
     pub(crate) poses: Option<PathBuf>,
+    /// Write a plan also where it reaches beyond the printer's volume.
+    #[arg(long)]
+    pub(crate) beyond_volume: bool,
+    /// Write what was planned after all repairs: the outline of each layer as a prism, as STL. Measure other prints of the same file
+    /// against it, or look at what became of it.
+    #[arg(long, value_name = "OUT.stl")]
+    pub(crate) repaired: Option<PathBuf>,
     /// Refuse a model that has to be repaired, and tell what is wrong with it and where.
     #[arg(long)]
     pub(crate) strict: bool,

@@ -22,7 +22,7 @@ pub(crate) fn run(args: &AuditArgs) -> Result<ExitCode, Failure> {
         ..input::settings(&args.bead, &profiles)?
     };
     args.json.iter().try_for_each(|path| output::check(path))?;
-    let mesh = input::model(&args.model, args.place, &profiles, settings.layer_height)?.mesh;
+    let mesh = input::model(&args.model, args.place, &profiles, &settings)?.mesh;
     let bytes = std::fs::read(&args.gcode).map_err(|source| Failure::reading(&args.gcode, source))?;
     let wanted = wanted(&settings);
     let wanted =

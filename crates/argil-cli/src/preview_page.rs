@@ -106,6 +106,8 @@ fn loss(loss: &Loss) -> PageMark {
     let (kind, measure, unit) = match *loss {
         Loss::OpenOutline { length, .. } => ("open outline left out", length, "mm"),
         Loss::ClosedGap { gap, .. } => ("gap in an outline closed", gap, "mm"),
+        Loss::Overlap { area, .. } => ("bodies that overlap made one", area, "mm²"),
+        Loss::InsideOut { area, .. } => ("surface inside out", area, "mm²"),
         Loss::Stray { length, .. } => ("open piece that bounds nothing left out", length, "mm"),
         Loss::Thin { area, .. } => ("thinner than a bead", area, "mm²"),
         Loss::Narrow { length, .. } => ("part thinner than a bead", length, "mm"),

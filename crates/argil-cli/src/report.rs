@@ -119,6 +119,8 @@ fn loss(loss: &Loss) -> LossReport {
         Loss::OpenOutline { length, .. } => ("open outline, mm left out", length),
         Loss::ClosedGap { gap, .. } => ("gap in an outline closed, mm wide", gap),
         Loss::Stray { length, .. } => ("open piece that bounds nothing left out, mm", length),
+        Loss::Overlap { area, .. } => ("bodies that overlap made one, mm²", area),
+        Loss::InsideOut { area, .. } => ("surface inside out, mm²", area),
         Loss::Thin { area, .. } => ("thinner than a bead, mm²", area),
         Loss::Narrow { length, .. } => ("part thinner than a bead, mm of its middle line", length),
         Loss::Vanished { area, .. } => ("too small to print, mm²", area),

@@ -60,9 +60,8 @@ pub(crate) fn place(
     if let Size::Height(height) = placement.size {
         // A layer is counted by comparing heights: the top must not miss its own by a rounding.
         for (vertex, original) in placed.iter_mut().zip(vertices) {
-            if original[2] == bounds.max[2] {
-                vertex[2] = height;
-            }
+            // Nor may what is a rounding below the top come to lie above it.
+            vertex[2] = if original[2] == bounds.max[2] { height } else { vertex[2].min(height) };
         }
     }
     Ok(placed)

@@ -20,6 +20,26 @@ pub enum Unit {
 }
 
 impl Unit {
+    /// The unit of this name, as [`Display`](fmt::Display) writes it.
+    ///
+    /// # Example
+    /// ```
+    /// use argil_mesh::Unit;
+    /// assert_eq!((Unit::named("cm"), Unit::named("ell")), (Some(Unit::Centimetre), None));
+    /// ```
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Some(match name {
+            "micron" => Self::Micron,
+            "mm" => Self::Millimetre,
+            "cm" => Self::Centimetre,
+            "inch" => Self::Inch,
+            "foot" => Self::Foot,
+            "m" => Self::Metre,
+            _ => return None,
+        })
+    }
+
     /// How many millimetres it has.
     #[must_use]
     pub fn millimetres(self) -> f64 {

@@ -18,5 +18,5 @@
 mod envelope;
 mod settings;
 
-pub use envelope::safeguards;
+pub use envelope::{safeguards, safeguards_while};
 pub use settings::SafeguardSettings;

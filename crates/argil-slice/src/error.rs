@@ -94,6 +94,36 @@ pub enum SliceError {
         /// How many more open pieces there are.
         others: usize,
     },
+    /// A surface of the mesh is inside out in a way that could not be put right; given by [`check_closed`](crate::check_closed) alone.
+    #[error(
+        "layer {layer}, near ({:.2}, {:.2}): a surface is inside out and meets others; {area:.2} mm² of the outline may be a hole or solid{}",
+        at.x, at.y, and_others(*others)
+    )]
+    InsideOut {
+        /// The layer with the largest such area.
+        layer: usize,
+        /// A point of it or near it.
+        at: DVec2,
+        /// The area in square millimetres.
+        area: f64,
+        /// How many more layers have one.
+        others: usize,
+    },
+    /// Bodies overlap; given by [`check_closed`](crate::check_closed) alone, where they are not to be made one.
+    #[error(
+        "layer {layer}, near ({:.2}, {:.2}): bodies overlap in {area:.2} mm² of the outline{}",
+        at.x, at.y, and_others(*others)
+    )]
+    Overlap {
+        /// The layer with the largest overlap.
+        layer: usize,
+        /// A point of it.
+        at: DVec2,
+        /// Its area in square millimetres.
+        area: f64,
+        /// How many more layers have one.
+        others: usize,
+    },
     /// The mesh has a hole that was closed; given by [`check_closed`](crate::check_closed) alone, where that is not wanted.
     #[error(
         "layer {layer}, near ({:.2}, {:.2}): the mesh has a hole; the outline is open by {gap:.2} mm{}",

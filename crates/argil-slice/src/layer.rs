@@ -90,6 +90,24 @@ pub enum Loss {
         /// Its length in millimetres.
         length: f64,
     },
+    /// Contours that overlap were made one: bodies that overlap, or lie inside each other.
+    Overlap {
+        /// The layer.
+        layer: usize,
+        /// A point of it.
+        at: DVec2,
+        /// The area in square millimetres that is solid more than once.
+        area: f64,
+    },
+    /// A surface is inside out in a way that could not be put right: where it overlaps another body, there is a hole.
+    InsideOut {
+        /// The layer.
+        layer: usize,
+        /// A point of it or near it.
+        at: DVec2,
+        /// The area in square millimetres.
+        area: f64,
+    },
     /// An outline is everywhere thinner than a bead: its wall runs along the middle, less than w/2 inside, and
     /// prints it wider than it is.
     Thin {
@@ -158,6 +176,8 @@ impl Loss {
             Self::OpenOutline { layer, .. }
             | Self::ClosedGap { layer, .. }
             | Self::Stray { layer, .. }
+            | Self::Overlap { layer, .. }
+            | Self::InsideOut { layer, .. }
             | Self::Thin { layer, .. }
             | Self::Vanished { layer, .. }
             | Self::Narrow { layer, .. }
@@ -174,6 +194,8 @@ impl Loss {
             Self::OpenOutline { at, .. }
             | Self::ClosedGap { at, .. }
             | Self::Stray { at, .. }
+            | Self::Overlap { at, .. }
+            | Self::InsideOut { at, .. }
             | Self::Thin { at, .. }
             | Self::Vanished { at, .. }
             | Self::Narrow { at, .. }

@@ -22,6 +22,7 @@ mod layer;
 mod loops;
 mod mitre;
 mod openings;
+mod prisms;
 mod pruning;
 mod region;
 #[cfg(feature = "serde")]
@@ -36,12 +37,14 @@ mod spine;
 mod stack;
 mod thin;
 mod wall;
+mod winding;
 
 pub use argil_mesh as mesh;
 pub use error::SliceError;
 pub use glam::DVec2;
 pub use layer::{Layer, Loss, WallLoop, outer_walls};
 pub use openings::check_closed;
+pub use prisms::prisms;
 pub use settings::SliceSettings;
-pub use slicing::slice;
+pub use slicing::{slice, slice_while};
 pub use stack::stacked;

@@ -6,6 +6,7 @@ use crate::section::Sweep;
 use crate::settings::MOST_LAYERS;
 use crate::sheet::{Sheet, SheetSection};
 use crate::wall::{Walls, walls};
+use crate::winding::unlike_one;
 use crate::{SliceError, SliceSettings};
 use argil_mesh::Mesh;
 use geo::{Distance, Euclidean};
@@ -22,6 +23,10 @@ const SHEET: f64 = 3e-4;
 
 /// Open pieces of a cut up to this length, in w, bound nothing that a bead could show.
 const SPECK: f64 = 0.05;
+
+/// Layers that are cut before somebody is asked whether to go on: so few that an answer is not long in coming, and enough for all
+/// threads of a desk.
+const BATCH: usize = 16;
 
 /// Cuts a mesh into layers and lays the wall paths into each outline. The paper
 /// takes both as given.
@@ -49,6 +54,35 @@ const SPECK: f64 = 0.05;
 /// );
 /// ```
 pub fn slice(mesh: &Mesh, settings: &SliceSettings) -> Result<Vec<Layer>, SliceError> {
+    // Nobody ends it, so that there are layers.
+    slice_while(mesh, settings, &mut || true).map(Option::unwrap_or_default)
+}
+
+/// The same for as long as `goes_on` says so: it is asked before the mesh is oriented, and again before every sixteen layers.
+/// `None` where it has ended the work.
+///
+/// # Errors
+/// Those of [`slice`].
+///
+/// # Complexity
+/// That of [`slice`]; what one batch of layers leaves behind is let go before the next, but for the layers themselves.
+///
+/// # Example
+/// ```
+/// use argil_slice::{SliceSettings, slice_while, stacked};
+/// # use glam::DVec2;
+/// # let square = vec![DVec2::ZERO, DVec2::new(8.0, 0.0), DVec2::new(8.0, 8.0), DVec2::new(0.0, 8.0)];
+/// let mesh = stacked(&vec![vec![square]; 40], 0.5)?;
+/// let mut asked = 0;
+/// let layers = slice_while(&mesh, &SliceSettings::default(), &mut || { asked += 1; asked < 3 })?;
+/// assert_eq!((layers, asked), (None, 3));
+/// # Ok::<(), argil_slice::SliceError>(())
+/// ```
+pub fn slice_while(
+    mesh: &Mesh,
+    settings: &SliceSettings,
+    goes_on: &mut dyn FnMut() -> bool,
+) -> Result<Option<Vec<Layer>>, SliceError> {
     settings.check()?;
     let bounds = mesh.bounds();
     let [wide, deep, height] = bounds.size();
@@ -57,23 +91,33 @@ pub fn slice(mesh: &Mesh, settings: &SliceSettings) -> Result<Vec<Layer>, SliceE
     let bottom = bounds.min[2];
     let planes: Vec<f64> = (0..layers).map(|n| bottom + (n as f64 + 0.5) * settings.layer_height).collect();
 
+    if !goes_on() {
+        return Ok(None);
+    }
     let mesh = mesh.oriented();
     let edges = mesh.edges();
     let mut sweep = Sweep::new(&mesh, &edges, &planes);
     let mut linker = Linker::new(edges.ends().len());
     let mut cuts = Vec::new();
-    let mut sections = Vec::with_capacity(layers);
-    for (index, &cut_z) in planes.iter().enumerate() {
-        sweep.advance(&mut cuts);
-        let (contours, open) = linker.link(&cuts);
-        let print_z = bottom + (index as f64 + 1.0) * settings.layer_height;
-        sections.push(UnclosedSection { index, cut_z, print_z, contours, open });
+    let mut done = Vec::with_capacity(layers);
+    for (batch, heights) in planes.chunks(BATCH).enumerate() {
+        if !goes_on() {
+            return Ok(None);
+        }
+        let mut section = |(k, &cut_z): (usize, &f64)| {
+            let index = batch * BATCH + k;
+            sweep.advance(&mut cuts);
+            let (contours, open) = linker.link(&cuts);
+            let print_z = bottom + (index as f64 + 1.0) * settings.layer_height;
+            UnclosedSection { index, cut_z, print_z, contours, open }
+        };
+        let sections: Vec<UnclosedSection> = heights.iter().enumerate().map(&mut section).collect();
+        #[cfg(feature = "rayon")]
+        done.par_extend(sections.into_par_iter().map(|section| section.layer(settings)));
+        #[cfg(not(feature = "rayon"))]
+        done.extend(sections.into_iter().map(|section| section.layer(settings)));
     }
-    #[cfg(feature = "rayon")]
-    let sections = sections.into_par_iter();
-    #[cfg(not(feature = "rayon"))]
-    let sections = sections.into_iter();
-    Ok(sections.map(|section| section.layer(settings)).collect())
+    Ok(Some(done))
 }
 
 /// What one plane cuts out of the mesh.
@@ -99,7 +143,8 @@ impl UnclosedSection {
         }
         let sheets: Vec<Vec<DVec2>> =
             self.contours.iter().filter(|contour| is_sheet(contour, width)).cloned().collect();
-        let outline = wound_region(self.contours, LEAST_AREA);
+        let outline = wound_region(&self.contours, LEAST_AREA);
+        losses.extend(unlike_one(index, &self.contours, &outline, width));
         for chain in &self.open {
             let Some(&at) = chain.points.last() else { continue };
             let length = chain.length();
@@ -147,7 +192,7 @@ impl UnclosedSection {
         let mut gaps = closed.gaps;
         let limit = settings.hole * settings.width;
         if !self.open.is_empty() && limit > sure {
-            let solid = wound_region(self.contours.clone(), LEAST_AREA);
+            let solid = wound_region(&self.contours, LEAST_AREA);
             self.open.retain(|chain| match chain.points.last() {
                 Some(&at) if runs_inside(chain, &solid) => {
                     losses.push(Loss::Stray { layer: self.index, at, length: chain.length() });

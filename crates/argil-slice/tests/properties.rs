@@ -124,7 +124,7 @@ fn a_fin_thinner_than_a_bead_on_a_thick_body_is_followed_there_and_back() {
     assert!(wall.thin && (15.2..15.6).contains(&end), "the spine ends at {end}");
     assert!(wall.points.iter().filter(|p| p.x > 10.0).all(|p| (p.y - 4.5).abs() < 0.05), "{:?}", wall.points);
     assert!(
-        matches!(layer.losses[..], [Loss::Narrow { length, at, .. }] if (5.5..7.0).contains(&length) && at.x > 10.0)
+        matches!(layer.losses[..], [Loss::Overlap { .. }, Loss::Narrow { length, at, .. }] if (5.5..7.0).contains(&length) && at.x > 10.0)
     );
 }
 

@@ -19,6 +19,8 @@ use crate::{Infill, InfillChoice, LayerReport, Plan, PlanError, Settings, StageT
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Progress {
+    /// No news: a stage that takes long asks whether it is to go on.
+    Working,
     /// The mesh is cut into this many layers.
     Sliced {
         /// How many.
@@ -134,8 +136,8 @@ impl<S: Slice, G: Safeguard, U: Support, R: Route, E: Smooth, T: Tauten, C: Seam
         })
     }
 
-    /// One strand for a mesh, for as long as `observe` wants it to go on. It is asked between stages and between layers, and in
-    /// each layer before a cycle is sought and before it is smoothed.
+    /// One strand for a mesh, for as long as `observe` wants it to go on. It is asked between stages and between layers, in
+    /// each layer before a cycle is sought and before it is smoothed, and every few layers by stages that work on all of them.
     ///
     /// # Errors
     /// [`PlanError::Cancelled`] when it breaks off; else see [`PlanError`]. The planner can be used again in either case.
@@ -161,8 +163,11 @@ impl<S: Slice, G: Safeguard, U: Support, R: Route, E: Smooth, T: Tauten, C: Seam
         observe: &mut dyn FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<Plan, PlanError> {
         let mut times = StageTimes::default();
-        let layers = timed(&mut times.slice, || self.slices(mesh, settings))?;
         let watch = Watch::new(observe);
+        settings.check()?;
+        let goes_on = &mut || watch.tell(Progress::Working);
+        let layers = timed(&mut times.slice, || self.slice.layers_while(mesh, settings, goes_on))?;
+        let layers = layers.ok_or(PlanError::Cancelled)?;
         watch.tell(Progress::Sliced { layers: layers.len() });
         self.plan_from(&layers, settings, times, &watch)
     }
@@ -237,7 +242,10 @@ impl<S: Slice, G: Safeguard, U: Support, R: Route, E: Smooth, T: Tauten, C: Seam
         let walls = layers.iter().map(wall_curves).collect::<Result<Vec<_>, _>>()?;
         let models = timed(&mut times.fill, || model(layers, settings, infill, lanes))?;
         let outer: Vec<_> = layers.iter().map(outer_walls).collect();
-        let safeguards = timed(&mut times.safeguard, || self.safeguard.regions(&outer, settings));
+        let goes_on = &mut || watch.tell(Progress::Working);
+        let safeguards =
+            timed(&mut times.safeguard, || self.safeguard.regions_while(&outer, settings, goes_on));
+        let safeguards = safeguards.ok_or(PlanError::Cancelled)?;
         let descended = Descent {
             settings,
             support: &mut self.support,
@@ -258,8 +266,11 @@ impl<S: Slice, G: Safeguard, U: Support, R: Route, E: Smooth, T: Tauten, C: Seam
         if planned.is_empty() {
             return Err(PlanError::Nothing);
         }
-        let seam = &mut self.seam;
-        let climbed = timed(&mut times.seam, || climbed(&planned, seam, settings, self.checked))?;
+        let seam = &mut Watched { stage: &mut self.seam, watch };
+        let joined = timed(&mut times.seam, || climbed(&planned, seam, settings, self.checked));
+        // A chain of which the search was ended fails as well.
+        watch.check()?;
+        let climbed = joined?;
         let mut reports: Vec<LayerReport> = planned.iter().map(|layer| layer.report).collect();
         for (report, lie) in reports.iter_mut().zip(&climbed.lies) {
             (report.climb, report.level_because, report.bead_heights) = (lie.climb, lie.cause, lie.beads);

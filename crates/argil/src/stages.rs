@@ -47,12 +47,35 @@ pub trait Slice {
     /// # Errors
     /// When the mesh cannot be cut.
     fn layers(&mut self, mesh: &Mesh, settings: &Settings) -> Result<Vec<Layer>, SliceError>;
+
+    /// The same for as long as `goes_on` says so, which is to be asked often; `None` where it has ended the work.
+    ///
+    /// # Errors
+    /// Those of [`Slice::layers`].
+    fn layers_while(
+        &mut self,
+        mesh: &Mesh,
+        settings: &Settings,
+        goes_on: &mut dyn FnMut() -> bool,
+    ) -> Result<Option<Vec<Layer>>, SliceError> {
+        if goes_on() { self.layers(mesh, settings).map(Some) } else { Ok(None) }
+    }
 }
 
 /// Builds the envelope that support keeps clear of.
 pub trait Safeguard {
     /// One region a layer, from the filled outermost walls of all layers, bottom first.
     fn regions(&mut self, outer: &[MultiPolygon<f64>], settings: &Settings) -> Vec<MultiPolygon<f64>>;
+
+    /// The same for as long as `goes_on` says so, which is to be asked often; `None` where it has ended the work.
+    fn regions_while(
+        &mut self,
+        outer: &[MultiPolygon<f64>],
+        settings: &Settings,
+        goes_on: &mut dyn FnMut() -> bool,
+    ) -> Option<Vec<MultiPolygon<f64>>> {
+        goes_on().then(|| self.regions(outer, settings))
+    }
 }
 
 /// Finds what a layer has to hold.
@@ -112,6 +135,15 @@ impl Slice for PlaneSlices {
     fn layers(&mut self, mesh: &Mesh, settings: &Settings) -> Result<Vec<Layer>, SliceError> {
         argil_slice::slice(mesh, &settings.slicing())
     }
+
+    fn layers_while(
+        &mut self,
+        mesh: &Mesh,
+        settings: &Settings,
+        goes_on: &mut dyn FnMut() -> bool,
+    ) -> Result<Option<Vec<Layer>>, SliceError> {
+        argil_slice::slice_while(mesh, &settings.slicing(), goes_on)
+    }
 }
 
 /// Dilates the walls and erodes from layer to layer ([`argil_safeguard`]).
@@ -121,6 +153,15 @@ pub struct SlopedSafeguard;
 impl Safeguard for SlopedSafeguard {
     fn regions(&mut self, outer: &[MultiPolygon<f64>], settings: &Settings) -> Vec<MultiPolygon<f64>> {
         argil_safeguard::safeguards(outer, &settings.safeguarding())
+    }
+
+    fn regions_while(
+        &mut self,
+        outer: &[MultiPolygon<f64>],
+        settings: &Settings,
+        goes_on: &mut dyn FnMut() -> bool,
+    ) -> Option<Vec<MultiPolygon<f64>>> {
+        argil_safeguard::safeguards_while(outer, &settings.safeguarding(), goes_on)
     }
 }
 
