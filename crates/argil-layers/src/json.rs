@@ -33,8 +33,9 @@ pub fn is_json(bytes: &[u8]) -> bool {
 ///
 /// # Example
 /// ```
-/// use argil_layers::json;
+/// use argil_layers::{is_json, json};
 /// let file = br#"{ "unit": "cm", "layer_height": 0.1, "layers": [[[[0, 0], [2, 0], [2, 2], [0, 2]]]] }"#;
+/// assert!(is_json(file));
 /// let layers = json(file, None)?;
 /// assert_eq!((layers.extent(), layers.layer_height), (20.0, Some(1.0)));
 /// # Ok::<(), argil_layers::LayersError>(())

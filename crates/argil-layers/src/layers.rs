@@ -8,6 +8,7 @@ pub(crate) const LARGEST: f64 = 1e6;
 /// A point is solid where it lies inside an odd number of the contours of its layer, whichever way they run. The first point of a
 /// contour is not repeated.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Layers {
     /// For each layer its contours, in millimetres.
     pub layers: Vec<Vec<Vec<DVec2>>>,

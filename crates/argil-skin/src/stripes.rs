@@ -22,6 +22,8 @@ use crate::{ModelLoop, SkinOptions};
 /// assert_eq!(fifth.share(1.5), 0.2);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Stripes {
     /// Distance of the lanes, mm: at least a bead. The share of clay is the bead width over it.
     pub pitch: f64,

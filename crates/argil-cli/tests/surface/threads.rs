@@ -60,6 +60,7 @@ pub(crate) fn types() -> impl IntoIterator<Item = &'static str> {
         argil::fill::FillCurve,
         argil::fill::FillError,
         argil::fill::FillOptions,
+        argil::fill::FillPattern,
         argil::fill::Joint,
         argil::fill::Merged,
         argil::fill::Ring,
@@ -85,6 +86,10 @@ pub(crate) fn types() -> impl IntoIterator<Item = &'static str> {
         argil::graph::PathFinder<'static>,
         argil::graph::PathGraph,
         argil::graph::PointKind,
+        // argil-layers
+        argil_layers::Layers,
+        argil_layers::LayersError,
+        argil_layers::SvgSettings,
         // argil-mesh
         argil::mesh::Bounds,
         argil::mesh::EdgeTable,
@@ -147,6 +152,7 @@ pub(crate) fn types() -> impl IntoIterator<Item = &'static str> {
         argil::skin::ModelLoop,
         argil::skin::Section<'static>,
         argil::skin::SkinOptions,
+        argil::skin::Stripes,
         // argil-slice
         argil::slice::Layer,
         argil::slice::Loss,

@@ -33,6 +33,13 @@ pub(super) const MOST_POINTS: usize = 50_000_000;
 const HEAD: usize = 1 << 16;
 
 /// Whether bytes begin as an SVG file does: as XML, with an element of that name soon.
+///
+/// # Example
+/// ```
+/// use argil_layers::is_svg;
+/// assert!(is_svg(br#"<?xml version="1.0"?><svg xmlns="http://www.w3.org/2000/svg"/>"#));
+/// assert!(!is_svg(b"<html/>") && !is_svg(b"solid vase"));
+/// ```
 #[must_use]
 pub fn is_svg(bytes: &[u8]) -> bool {
     let head = bytes.get(..HEAD).unwrap_or(bytes);

@@ -18,6 +18,8 @@ const MOST_NODES: u32 = 20_000_000;
 
 /// How a drawing is read.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct SvgSettings {
     /// The unit of its coordinates, in place of the one that its page states.
     pub unit: Option<Unit>,
