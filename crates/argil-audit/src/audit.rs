@@ -14,7 +14,7 @@ use crate::{bead, contact, coverage, crossings, crowding, motion, passage, suppo
 use argil_curve::{DVec2, SegmentIndex};
 use argil_gcode::Program;
 use argil_slice::mesh::Mesh;
-use argil_slice::{Layer, SliceSettings, slice};
+use argil_slice::{Outline, SliceSettings};
 use geo::{MultiPolygon, Translate};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -68,14 +68,14 @@ pub fn audit(program: &Program, mesh: &Mesh, settings: &AuditSettings) -> Result
     // One layer of the file for each of the mesh, and any more that the file has.
     let of_mesh = (0..outlines.len()).map(|n| lowest.saturating_add_unsigned(n as u64));
     let numbers: BTreeSet<i64> = of_mesh.chain(printed.keys().copied()).collect();
-    let empty = Outline { plane: f64::NEG_INFINITY, region: MultiPolygon::new(Vec::new()) };
+    let empty = Outline { cut_z: f64::NEG_INFINITY, region: MultiPolygon::new(Vec::new()) };
     let mut sections = Sections::new(mesh);
     for number in numbers {
         let place = usize::try_from(number.saturating_sub(lowest)).ok();
         let outline = place.and_then(|n| outlines.get(n)).unwrap_or(&empty);
         let paths = printed.get(&number).map_or(&[][..], Vec::as_slice);
         let [dx, dy] = settings.offset;
-        let mut cuts = sections.at(outline.plane);
+        let mut cuts = sections.at(outline.cut_z);
         cuts.iter_mut().for_each(|cut| *cut += DVec2::new(dx, dy));
         let wanted = Wanted::new(&outline.region, &cuts, settings, &audit.tolerance);
         audit.layer(number, place, &wanted, paths)?;
@@ -86,7 +86,6 @@ pub fn audit(program: &Program, mesh: &Mesh, settings: &AuditSettings) -> Result
 
 /// The model's outline on each layer, in the file's coordinates.
 fn outlines(mesh: &Mesh, settings: &AuditSettings) -> Result<Vec<Outline>, AuditError> {
-    // The slicer's own walls are none of the audit's business: it makes its own, in another way.
     let cuts = SliceSettings {
         layer_height: settings.layer_height,
         width: settings.width,
@@ -95,15 +94,10 @@ fn outlines(mesh: &Mesh, settings: &AuditSettings) -> Result<Vec<Outline>, Audit
         ..SliceSettings::default()
     };
     let [dx, dy] = settings.offset;
-    let outline = |layer: Layer| Outline { plane: layer.cut_z, region: layer.outline.translate(dx, dy) };
-    Ok(slice(mesh, &cuts)?.into_iter().map(outline).collect())
-}
-
-/// The model on a layer's plane.
-struct Outline {
-    /// Height of the plane, mm.
-    plane: f64,
-    region: MultiPolygon<f64>,
+    // The slicer's own walls are none of the audit's business: it makes its own, in another way.
+    let mut outlines = argil_slice::outlines(mesh, &cuts)?;
+    outlines.iter_mut().for_each(|outline| outline.region.translate_mut(dx, dy));
+    Ok(outlines)
 }
 
 fn unreadable_lines(program: &Program) -> Vec<Finding> {

@@ -17,7 +17,7 @@ pub(crate) fn hanging(
     step_up: f64,
     cyclic: bool,
 ) -> Vec<(DVec2, f64)> {
-    let bare: Vec<bool> = pieces.iter().map(|p| below.nearest_within(p.at, across).is_none()).collect();
+    let bare: Vec<bool> = pieces.iter().map(|p| !below.is_within(p.at, across)).collect();
     let mut run = 0.0;
     let cut = pieces
         .iter()

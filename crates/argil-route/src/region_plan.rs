@@ -1,5 +1,6 @@
 //! The plan of one region: its attachments, its tours, and the graph that they are drawn on.
 
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 use argil_curve::{ClosedCurve, DVec2, SegmentIndex};
@@ -9,10 +10,10 @@ use rayon::prelude::*;
 
 use crate::attachment::{Attachments, attach};
 use crate::cycle::Leg;
-use crate::discs::Discs;
-use crate::excursion::{Excursion, Stops};
+use crate::excursion::{Excursion, Hops, Stops};
 use crate::joint::{Reuse, join_walls};
 use crate::round_tour::{meeting_places, taken_along};
+use crate::straight::Straight;
 use crate::tours::{TourDistances, Tours};
 use crate::{Region, RouteError, RouteSettings};
 
@@ -73,21 +74,23 @@ const DETOUR: f64 = 0.1;
 
 /// A stop of a sketched tour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Stop {
+pub(crate) enum Stop {
     Demand(usize),
     Place(usize),
 }
 
 /// Which tours a region is to have, before they are drawn.
 #[derive(Clone, Debug, Default)]
-struct Sketch {
+pub(crate) struct Sketch {
     /// Places on walls: (index among the region's walls, arc).
-    places: Vec<(usize, f64)>,
-    tours: Vec<Vec<Stop>>,
+    pub(crate) places: Vec<(usize, f64)>,
+    pub(crate) tours: Vec<Vec<Stop>>,
     /// Whether the first tour goes through all walls.
     round: bool,
     /// Whether the stops of each tour are in an order to begin the search from.
     ordered: bool,
+    /// Whether the demands were moved towards the tours already.
+    moved: bool,
 }
 
 impl RegionView<'_> {
@@ -100,7 +103,8 @@ impl RegionView<'_> {
     ) -> Result<RegionPlan, RouteError> {
         let taken = attachments.clone();
         let mut best = self.cheapest(demands, &taken)?;
-        for _ in 0..self.settings.relaxations {
+        let passes = self.settings.relaxations.saturating_sub(usize::from(best.sketch.moved));
+        for _ in 0..passes {
             if self.region.demands.is_empty() {
                 break;
             }
@@ -124,7 +128,15 @@ impl RegionView<'_> {
             let tour = (0..demands.len()).map(Stop::Demand).collect();
             return self.draw(Sketch { tours: vec![tour], ..Sketch::default() }, demands);
         }
-        let excursions = || self.draw(self.sketch_excursions(demands, taken)?, demands);
+        let excursions = || {
+            let sketch = self.sketch_excursions(demands, taken);
+            if self.settings.relaxations == 0 {
+                return self.draw(sketch, demands);
+            }
+            // The first pass needs no drawing: excursions lead straight from stop to stop but for corners.
+            let moved = self.relaxed_along(&sketch, demands);
+            self.draw(Sketch { moved: true, ..self.rerooted(&sketch, &moved, taken) }, &moved)
+        };
         if self.walls.len() == 1 {
             return excursions();
         }
@@ -147,7 +159,7 @@ impl RegionView<'_> {
         Ok(if some.cost < all.cost { some } else { all })
     }
 
-    fn wall(&self, local: usize) -> &ClosedCurve {
+    pub(crate) fn wall(&self, local: usize) -> &ClosedCurve {
         &self.curves[self.walls[local]]
     }
 
@@ -158,7 +170,7 @@ impl RegionView<'_> {
     }
 
     /// Walls joined by a tree, demands served by excursions.
-    fn sketch_excursions(&self, demands: &[DVec2], taken: &Attachments) -> Result<Sketch, RouteError> {
+    fn sketch_excursions(&self, demands: &[DVec2], taken: &Attachments) -> Sketch {
         let s = self.settings;
         let walls: Vec<&ClosedCurve> = (0..self.walls.len()).map(|w| self.wall(w)).collect();
         let to_wall: Vec<Vec<f64>> =
@@ -172,21 +184,30 @@ impl RegionView<'_> {
             taken.take(self.walls[joint.wall], arc);
             places.push((joint.wall, arc));
         }
-        let (graph, cuts) = self.graph(&places, demands)?;
-        let among: Vec<u32> =
-            cuts.iter().map(|c| c.vertex).chain((0..demands.len()).map(|d| graph.terminal(d))).collect();
-        let distances = self.distances(&graph, &among)?;
         // Stops are the joints first, each bound to its parent, then the demands.
-        let mut reach: Vec<Vec<f64>> = Vec::with_capacity(among.len());
-        for (joint, cut) in joints.iter().zip(&cuts) {
+        let at: Vec<DVec2> = places
+            .iter()
+            .map(|&(wall, arc)| walls[wall].point_at(arc))
+            .chain(demands.iter().copied())
+            .collect();
+        let mut reach: Vec<Vec<f64>> = Vec::with_capacity(at.len());
+        for (joint, &place) in joints.iter().zip(&at) {
             let mut row = vec![f64::INFINITY; walls.len()];
-            row[joint.parent] = walls[joint.parent].nearest(cut.at).distance;
+            row[joint.parent] = walls[joint.parent].nearest(place).distance;
             reach.push(row);
         }
         reach.extend(to_wall);
-        let bound: Vec<bool> = (0..among.len()).map(|k| k < joints.len()).collect();
+        let bound: Vec<bool> = (0..at.len()).map(|k| k < joints.len()).collect();
+        let hops = Straight {
+            places: &at,
+            walls: &self.index,
+            cheapest: s.coherence.min(1.0),
+            weight: |a, b| self.weight(a, b),
+            grid: s.grid,
+            known: RefCell::default(),
+        };
         let stops = Stops {
-            distances: &distances,
+            hops: &hops,
             to_wall: &reach,
             bound: &bound,
             root_cost: s.root_cost * s.width,
@@ -194,19 +215,18 @@ impl RegionView<'_> {
         };
         let mut excursions = stops.excursions();
         excursions.sort_by_key(|e| e.stops.len());
-        let at = |k: usize| if k < joints.len() { cuts[k].at } else { demands[k - joints.len()] };
         let stop = |k: usize| if k < joints.len() { Stop::Place(k) } else { Stop::Demand(k - joints.len()) };
         let mut sketch = Sketch { places, ordered: true, ..Sketch::default() };
-        self.root(&excursions, &stops, &mut taken, &mut sketch, at, stop);
-        Ok(sketch)
+        self.root(&excursions, &stops, &mut taken, &mut sketch, |k| at[k], stop);
+        sketch
     }
 
     /// Gives every excursion a place on its wall, the one nearest to it that is free, and adds it to the sketch. `at` tells where a stop
     /// is and `stop` what it is.
-    fn root(
+    fn root<H: Hops>(
         &self,
         excursions: &[Excursion],
-        stops: &Stops<'_>,
+        stops: &Stops<'_, H>,
         taken: &mut Attachments,
         sketch: &mut Sketch,
         at: impl Fn(usize) -> DVec2,
@@ -262,7 +282,7 @@ impl RegionView<'_> {
     fn sketch_round(&self, demands: &[DVec2], taken: &Attachments) -> Sketch {
         let places = self.met_by_one_tour(demands, &mut taken.clone());
         let stops = (0..places.len()).map(Stop::Place).chain((0..demands.len()).map(Stop::Demand)).collect();
-        Sketch { places, tours: vec![stops], round: true, ordered: false }
+        Sketch { places, tours: vec![stops], round: true, ..Sketch::default() }
     }
 
     /// Where one tour through the given points meets each wall.
@@ -293,7 +313,7 @@ impl RegionView<'_> {
             demands.iter().map(|&d| walls.iter().map(|w| w.nearest(d).distance).collect()).collect();
         let bound = vec![false; demands.len()];
         let stops = Stops {
-            distances: &distances,
+            hops: &distances,
             to_wall: &to_wall,
             bound: &bound,
             root_cost: s.root_cost * s.width,
@@ -308,7 +328,7 @@ impl RegionView<'_> {
             None => Stop::Demand(k),
         };
         let tours = vec![round.into_iter().map(stop).collect()];
-        let mut sketch = Sketch { places, tours, round: true, ordered: true };
+        let mut sketch = Sketch { places, tours, round: true, ordered: true, moved: false };
         self.root(&excursions, &stops, &mut taken, &mut sketch, |k| demands[k], stop);
         Ok(sketch)
     }
@@ -425,44 +445,6 @@ impl RegionView<'_> {
     fn somewhere(&self, demands: &[DVec2]) -> DVec2 {
         let wall = self.walls.first().map(|&w| self.curves[w].points()[0]);
         demands.first().copied().or(wall).unwrap_or_default()
-    }
-
-    /// The demands moved within their slack towards the tours of a plan.
-    fn relaxed(&self, plan: &RegionPlan) -> Result<Vec<DVec2>, RouteError> {
-        let s = self.settings;
-        let count = plan.demands.len();
-        // Points: the demands, then the other vertices of the graph as they are met.
-        let mut points = plan.demands.clone();
-        points.extend(plan.graph.positions());
-        let mut demand_at = vec![usize::MAX; plan.graph.vertex_count()];
-        for demand in (0..count).rev() {
-            demand_at[plan.graph.terminal(demand) as usize] = demand;
-        }
-        let place = |v: u32| match demand_at[v as usize] {
-            usize::MAX => count + v as usize,
-            demand => demand,
-        };
-        let mut neighbours = vec![Vec::new(); count];
-        for tour in &plan.tours {
-            plan.walk(tour, |path| {
-                for pair in path.windows(2) {
-                    for (here, there) in [(pair[0], pair[1]), (pair[1], pair[0])] {
-                        if let Some(met) = neighbours.get_mut(place(here)) {
-                            met.push(place(there));
-                        }
-                    }
-                }
-            })?;
-        }
-        let discs = Discs {
-            anchors: &self.anchors,
-            radius: s.slack,
-            walls: &self.index,
-            wall_keep: s.wall_keep * s.width,
-        };
-        discs.relax(&mut points, &neighbours);
-        points.truncate(count);
-        Ok(points.into_iter().map(|p| (p / s.grid).round() * s.grid).collect())
     }
 }
 

@@ -1,6 +1,7 @@
 //! One tour through all walls of a region: where each wall is best met, and what it takes along.
 
 use argil_curve::{ClosedCurve, DVec2, Segment};
+use argil_graph::DistanceMatrix;
 use argil_tour::{Metric, TourOptions, shortest_tour};
 
 use crate::excursion::{Excursion, Stops};
@@ -59,10 +60,10 @@ pub(crate) fn meeting_places(walls: &[&ClosedCurve], demands: &[DVec2], options:
 pub(crate) fn taken_along(
     tour: &mut Vec<usize>,
     mut excursions: Vec<Excursion>,
-    stops: &Stops<'_>,
+    stops: &Stops<'_, DistanceMatrix>,
     ring: f64,
 ) -> Vec<Excursion> {
-    let distance = |a: usize, b: usize| stops.distances.get(a, b);
+    let distance = |a: usize, b: usize| stops.hops.get(a, b);
     let saving = |tour: &[usize], excursion: &Excursion| {
         let [first, last] = excursion.ends();
         let places = (0..tour.len()).flat_map(|k| {
@@ -96,8 +97,9 @@ fn nearest_to(curve: &ClosedCurve, line: Segment) -> f64 {
     let detour = |p: DVec2| p.distance(line.start) + p.distance(line.end);
     let mut best = (f64::INFINITY, 0.0);
     let projections = [line.start, line.end, line.point_at(0.5)].map(|p| curve.nearest(p).s);
-    for s in projections.into_iter().chain((0..curve.segment_count()).map(|k| curve.arc_of(k))) {
-        let cost = detour(curve.point_at(s));
+    let vertices = curve.points().iter().enumerate().map(|(k, &p)| (curve.arc_of(k), p));
+    for (s, p) in projections.map(|s| (s, curve.point_at(s))).into_iter().chain(vertices) {
+        let cost = detour(p);
         if cost < best.0 {
             best = (cost, s);
         }

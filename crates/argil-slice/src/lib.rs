@@ -33,11 +33,12 @@ mod spine;
 mod stack;
 mod thin;
 mod wall;
+mod widening;
 
 pub use argil_mesh as mesh;
 pub use error::SliceError;
 pub use layer::{Layer, Loss, WallLoop, outer_walls};
 pub use openings::check_closed;
 pub use settings::SliceSettings;
-pub use slicing::slice;
+pub use slicing::{Outline, outlines, slice};
 pub use stack::stacked;

@@ -48,6 +48,57 @@ const SPECK: f64 = 0.05;
 /// );
 /// ```
 pub fn slice(mesh: &Mesh, settings: &SliceSettings) -> Result<Vec<Layer>, SliceError> {
+    let sections = sections(mesh, settings)?;
+    #[cfg(feature = "rayon")]
+    let sections = sections.into_par_iter();
+    #[cfg(not(feature = "rayon"))]
+    let sections = sections.into_iter();
+    Ok(sections.map(|section| section.layer(settings)).collect())
+}
+
+/// What is solid at the height of one cut.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outline {
+    /// Height of the cut in millimetres.
+    pub cut_z: f64,
+    /// As [`Layer::outline`].
+    pub region: MultiPolygon<f64>,
+}
+
+/// The outlines of [`slice`]'s layers by themselves, for those who want no walls in them: most of the work is theirs.
+///
+/// # Errors
+/// As [`slice`].
+///
+/// # Complexity
+/// O(triangles + crossings of planes with triangles), and near linear in the vertices of each outline.
+///
+/// # Example
+/// ```
+/// use argil_slice::{mesh::Mesh, outlines, SliceSettings};
+/// let corners = vec![[0.0; 3], [9.0, 0.0, 0.0], [0.0, 9.0, 0.0], [0.0, 0.0, 9.0]];
+/// let pyramid = Mesh::new(corners, vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]).unwrap();
+/// let outlines = outlines(&pyramid, &SliceSettings::default())?;
+/// assert_eq!((outlines.len(), outlines[0].cut_z), (18, 0.25));
+/// # Ok::<(), argil_slice::SliceError>(())
+/// ```
+pub fn outlines(mesh: &Mesh, settings: &SliceSettings) -> Result<Vec<Outline>, SliceError> {
+    let sections = sections(mesh, settings)?;
+    #[cfg(feature = "rayon")]
+    let sections = sections.into_par_iter();
+    #[cfg(not(feature = "rayon"))]
+    let sections = sections.into_iter();
+    let outline = |mut section: UnclosedSection| {
+        let cut_z = section.cut_z;
+        let mut losses = Vec::new();
+        section.close(settings, &mut losses);
+        Outline { cut_z, region: wound_region(section.contours, LEAST_AREA) }
+    };
+    Ok(sections.map(outline).collect())
+}
+
+/// The cuts of all layers, bottom first.
+fn sections(mesh: &Mesh, settings: &SliceSettings) -> Result<Vec<UnclosedSection>, SliceError> {
     settings.check()?;
     let bounds = mesh.bounds();
     let [wide, deep, height] = bounds.size();
@@ -68,11 +119,7 @@ pub fn slice(mesh: &Mesh, settings: &SliceSettings) -> Result<Vec<Layer>, SliceE
         let print_z = bottom + (index as f64 + 1.0) * settings.layer_height;
         sections.push(UnclosedSection { index, cut_z, print_z, contours, open });
     }
-    #[cfg(feature = "rayon")]
-    let sections = sections.into_par_iter();
-    #[cfg(not(feature = "rayon"))]
-    let sections = sections.into_iter();
-    Ok(sections.map(|section| section.layer(settings)).collect())
+    Ok(sections)
 }
 
 /// What one plane cuts out of the mesh.
@@ -90,9 +137,7 @@ impl UnclosedSection {
         let index = self.index;
         let width = settings.width;
         let mut losses = Vec::new();
-        if !self.open.is_empty() {
-            self.close(settings, &mut losses);
-        }
+        self.close(settings, &mut losses);
         let sheets: Vec<Vec<DVec2>> =
             self.contours.iter().filter(|contour| is_sheet(contour, width)).cloned().collect();
         let outline = wound_region(self.contours, LEAST_AREA);
@@ -115,6 +160,9 @@ impl UnclosedSection {
 
     /// Closes contours across gaps: narrow ones first, then wider ones, where that leaves little to guess.
     fn close(&mut self, settings: &SliceSettings, losses: &mut Vec<Loss>) {
+        if self.open.is_empty() {
+            return;
+        }
         let sure = settings.gap * settings.width;
         let nothing = MultiPolygon(Vec::new());
         let narrow = Closing { limit: sure, sure, solid: &nothing };
