@@ -1,8 +1,6 @@
 //! Closed excursions from walls: the savings method of Clarke and Wright (1964, DOI 10.1287/opre.12.4.568)
 //! with every wall of the region as a depot.
 
-use argil_graph::DistanceMatrix;
-
 /// Stops farther apart than so many times what both cost by themselves are not looked at: by themselves they are joined up to once.
 const HOPELESS: f64 = 2.0;
 
@@ -38,16 +36,6 @@ pub(crate) trait Hops {
 
     /// The same way in full; `None` where there is no direct one.
     fn whole(&self, a: usize, b: usize) -> Option<f64>;
-}
-
-impl Hops for DistanceMatrix {
-    fn at_least(&self, a: usize, b: usize) -> f64 {
-        self.get(a, b)
-    }
-
-    fn whole(&self, a: usize, b: usize) -> Option<f64> {
-        Some(self.get(a, b))
-    }
 }
 
 /// The stops of a region. Stop k lies `to_wall[k][w]` from wall w, infinity where that wall is no choice;

@@ -65,12 +65,7 @@ pub(crate) struct RegionPlan {
     sketch: Sketch,
     /// Length of all tours and the price of their roots and rings, mm.
     cost: f64,
-    /// What the tour through all walls, if there is one, is longer for the demands on it, mm.
-    detour: f64,
 }
-
-/// A tour through all walls is not looked at again if this share of its cost or less is for the demands that it takes along.
-const DETOUR: f64 = 0.1;
 
 /// A stop of a sketched tour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -128,35 +123,25 @@ impl RegionView<'_> {
             let tour = (0..demands.len()).map(Stop::Demand).collect();
             return self.draw(Sketch { tours: vec![tour], ..Sketch::default() }, demands);
         }
-        let excursions = || {
-            let sketch = self.sketch_excursions(demands, taken);
+        // The first pass needs no drawing: tours lead straight from stop to stop but for corners.
+        let drawn = |sketch: Sketch| {
             if self.settings.relaxations == 0 {
                 return self.draw(sketch, demands);
             }
-            // The first pass needs no drawing: excursions lead straight from stop to stop but for corners.
             let moved = self.relaxed_along(&sketch, demands);
             self.draw(Sketch { moved: true, ..self.rerooted(&sketch, &moved, taken) }, &moved)
         };
+        let excursions = || drawn(self.sketch_excursions(demands, taken));
         if self.walls.len() == 1 {
             return excursions();
         }
-        let round = || self.cheapest_round(demands, taken);
+        let round = || drawn(self.sketch_round(demands, taken)?);
         #[cfg(feature = "rayon")]
         let (plan, round) = rayon::join(excursions, round);
         #[cfg(not(feature = "rayon"))]
         let (plan, round) = (excursions(), round());
         let (plan, round) = (plan?, round?);
         Ok(if round.cost < plan.cost { round } else { plan })
-    }
-
-    /// One tour through all walls, with all demands or only with those that lie on its way.
-    fn cheapest_round(&self, demands: &[DVec2], taken: &Attachments) -> Result<RegionPlan, RouteError> {
-        let all = self.draw(self.sketch_round(demands, taken), demands)?;
-        if all.detour <= DETOUR * all.cost {
-            return Ok(all);
-        }
-        let some = self.draw(self.sketch_lean_round(demands, taken)?, demands)?;
-        Ok(if some.cost < all.cost { some } else { all })
     }
 
     pub(crate) fn wall(&self, local: usize) -> &ClosedCurve {
@@ -198,14 +183,7 @@ impl RegionView<'_> {
         }
         reach.extend(to_wall);
         let bound: Vec<bool> = (0..at.len()).map(|k| k < joints.len()).collect();
-        let hops = Straight {
-            places: &at,
-            walls: &self.index,
-            cheapest: s.coherence.min(1.0),
-            weight: |a, b| self.weight(a, b),
-            grid: s.grid,
-            known: RefCell::default(),
-        };
+        let hops = self.straight(&at);
         let stops = Stops {
             hops: &hops,
             to_wall: &reach,
@@ -278,17 +256,10 @@ impl RegionView<'_> {
         places.next().filter(|_| places.next().is_none())
     }
 
-    /// One tour through all walls and demands.
-    fn sketch_round(&self, demands: &[DVec2], taken: &Attachments) -> Sketch {
-        let places = self.met_by_one_tour(demands, &mut taken.clone());
-        let stops = (0..places.len()).map(Stop::Place).chain((0..demands.len()).map(Stop::Demand)).collect();
-        Sketch { places, tours: vec![stops], round: true, ..Sketch::default() }
-    }
-
-    /// Where one tour through the given points meets each wall.
-    fn met_by_one_tour(&self, points: &[DVec2], taken: &mut Attachments) -> Vec<(usize, f64)> {
+    /// Where one tour through the walls meets each of them.
+    fn met_by_one_tour(&self, taken: &mut Attachments) -> Vec<(usize, f64)> {
         let walls: Vec<&ClosedCurve> = (0..self.walls.len()).map(|w| self.wall(w)).collect();
-        let wanted = meeting_places(&walls, points, &self.settings.tour).into_iter().enumerate();
+        let wanted = meeting_places(&walls, &self.settings.tour).into_iter().enumerate();
         wanted
             .map(|(local, arc)| {
                 let arc = self.free_near(taken, local, arc);
@@ -299,29 +270,27 @@ impl RegionView<'_> {
     }
 
     /// One tour through all walls, which takes along what demands it can; the others are served by excursions.
-    fn sketch_lean_round(&self, demands: &[DVec2], taken: &Attachments) -> Result<Sketch, RouteError> {
+    fn sketch_round(&self, demands: &[DVec2], taken: &Attachments) -> Result<Sketch, RouteError> {
         let s = self.settings;
         let walls: Vec<&ClosedCurve> = (0..self.walls.len()).map(|w| self.wall(w)).collect();
         let mut taken = taken.clone();
-        let places = self.met_by_one_tour(&[], &mut taken);
-        let (graph, cuts) = self.graph(&places, demands)?;
+        let places = self.met_by_one_tour(&mut taken);
         // The demands first, so that they have the numbers of their stops.
-        let among: Vec<u32> =
-            (0..demands.len()).map(|d| graph.terminal(d)).chain(cuts.iter().map(|c| c.vertex)).collect();
-        let distances = self.distances(&graph, &among)?;
+        let met = places.iter().map(|&(wall, arc)| walls[wall].point_at(arc));
+        let at: Vec<DVec2> = demands.iter().copied().chain(met).collect();
         let to_wall: Vec<Vec<f64>> =
             demands.iter().map(|&d| walls.iter().map(|w| w.nearest(d).distance).collect()).collect();
         let bound = vec![false; demands.len()];
+        let hops = self.straight(&at);
         let stops = Stops {
-            hops: &distances,
+            hops: &hops,
             to_wall: &to_wall,
             bound: &bound,
             root_cost: s.root_cost * s.width,
             length_cost: s.length_cost / s.width,
         };
-        let met: Vec<usize> = (demands.len()..among.len()).collect();
-        let (order, _) = TourDistances::new(&distances, &met).toured(self.solver, None, &s.tour)?;
-        let mut round: Vec<usize> = order.into_iter().map(|k| met[k]).collect();
+        let (order, _) = TourDistances::straight(&at[demands.len()..]).toured(self.solver, None, &s.tour)?;
+        let mut round: Vec<usize> = order.into_iter().map(|k| demands.len() + k).collect();
         let excursions = taken_along(&mut round, stops.excursions(), &stops, s.ring_cost);
         let stop = |k: usize| match k.checked_sub(demands.len()) {
             Some(place) => Stop::Place(place),
@@ -331,6 +300,18 @@ impl RegionView<'_> {
         let mut sketch = Sketch { places, tours, round: true, ordered: true, moved: false };
         self.root(&excursions, &stops, &mut taken, &mut sketch, |k| demands[k], stop);
         Ok(sketch)
+    }
+
+    /// Straight hops between places.
+    fn straight<'a>(&'a self, places: &'a [DVec2]) -> Straight<'a, impl Fn(DVec2, DVec2) -> f64 + 'a> {
+        Straight {
+            places,
+            walls: &self.index,
+            cheapest: self.settings.coherence.min(1.0),
+            weight: |a, b| self.weight(a, b),
+            grid: self.settings.grid,
+            known: RefCell::default(),
+        }
     }
 
     /// Draws a sketch: the graph with all its places, and the shortest tour through the stops of each.
@@ -379,7 +360,7 @@ impl RegionView<'_> {
             cost += length;
             tours.push(tour);
         }
-        Ok(RegionPlan { graph, cuts, tours, demands: demands.to_vec(), sketch, cost, detour })
+        Ok(RegionPlan { graph, cuts, tours, demands: demands.to_vec(), sketch, cost })
     }
 
     /// The region's graph with the given places on its walls as attachments.
