@@ -106,7 +106,8 @@ fn overlapping_pairs(segments: &[Segment], mut visit: impl FnMut(usize, usize)) 
     // How many segments a line along y, or along x, meets in the mean.
     let met = along / (high - low).max(DVec2::splat(f64::MIN_POSITIVE));
     let by_x = met.x <= met.y;
-    if !(if by_x { met.x } else { met.y } <= MOST_MET) {
+    let met = if by_x { met.x } else { met.y };
+    if met.is_nan() || met > MOST_MET {
         return false;
     }
     // Boxes with the axis of the sweep first.
