@@ -57,6 +57,34 @@ fn obj_files() -> [(&'static str, &'static str); 4] {
     ]
 }
 
+/// Layers in JSON and in SVG as programs write them, and what is none.
+fn layer_files() -> [(&'static str, &'static str); 6] {
+    [
+        ("json", r#"{ "unit": "cm", "layer_height": 0.1, "layers": [[[[0,0],[2,0],[2,2],[0,2]]], [], [[[0,0],[1,0],[1,1]]]] }"#),
+        (
+            "slic3r",
+            r#"<?xml version="1.0" encoding="UTF-8" standalone="yes"?>
+<!DOCTYPE svg PUBLIC "-//W3C//DTD SVG 1.0//EN" "http://www.w3.org/TR/2001/REC-SVG-20010904/DTD/svg10.dtd">
+<svg width="20.0" height="10.0" xmlns="http://www.w3.org/2000/svg" xmlns:slic3r="http://slic3r.org/namespaces/slic3r">
+<g id="layer0" slic3r:z="0.5" slic3r:layer-height="0.5"><path d="M 1 9 9 9 9 1 1 1 z M 3 3 3 5 5 5 5 3 z"/></g>
+<g id="layer1" slic3r:z="1" slic3r:layer-height="0.5"><polygon points="1,1 9,1 9,9" slic3r:type="contour"/><circle r="2" slic3r:type="support"/></g>
+</svg>"#,
+        ),
+        (
+            "shapes",
+            r#"<svg xmlns="http://www.w3.org/2000/svg" width="40mm" height="3cm" viewBox="0 0 400 300"><g transform="rotate(3)">
+<g transform="matrix(1 0 0 1 5 5)"><rect x="1" width="9" height="9"/></g><g><circle cx="5" cy="5" r="4"/><ellipse rx="3" ry="2"/></g>
+<g style="display:none"><polyline points="0 0 9 0 9 9 0 0"/></g></g></svg>"#,
+        ),
+        (
+            "curves",
+            r#"<svg><g><path d="m1 2c3 4 5 6 7 8s1 2 3 4q5 6 7 8t9-9a25 26 -30 0 1 50-25h4v5H1V2z"/></g><g><path d="M0 0L1 0L1 1Z"/></g></svg>"#,
+        ),
+        ("entities", r#"<!DOCTYPE svg [<!ENTITY a "1 0 "><!ENTITY b "&a;&a;&b;">]><svg><g><polygon points="&b;"/></g></svg>"#),
+        ("not_read", r#"<svg viewBox="0 0 1e300 1"><g><text>7</text><path d="M0 0A1e300 1 0 0 1 9 9" clip-path="url(#a)"/></g></svg>"#),
+    ]
+}
+
 /// A triangle as PLY in all encodings, and headers that promise too much.
 fn ply_files() -> [(&'static str, Vec<u8>); 5] {
     let header = |format: &str| {
@@ -146,6 +174,9 @@ fn main() -> std::io::Result<()> {
     }
     for (name, text) in obj_files() {
         write("read_obj", name, text.as_bytes())?;
+    }
+    for (name, text) in layer_files() {
+        write("read_layers", name, text.as_bytes())?;
     }
     for (name, bytes) in ply_files() {
         write("read_ply", name, &bytes)?;

@@ -12,6 +12,7 @@ mod graph;
 mod model;
 mod pipeline;
 mod read_gcode;
+mod read_layers;
 mod read_obj;
 mod read_ply;
 mod read_stl;
@@ -26,6 +27,7 @@ pub use elastic::elastic;
 pub use graph::graph;
 pub use pipeline::pipeline;
 pub use read_gcode::read_gcode;
+pub use read_layers::read_layers;
 pub use read_obj::read_obj;
 pub use read_ply::read_ply;
 pub use read_stl::read_stl;
@@ -39,11 +41,12 @@ pub use tour::tour;
 pub type Target = fn(&[u8]);
 
 /// Every target with its name, which is that of its folder in `seeds/` too.
-pub const TARGETS: [(&str, Target); 12] = [
+pub const TARGETS: [(&str, Target); 13] = [
     ("elastic", elastic),
     ("graph", graph),
     ("pipeline", pipeline),
     ("read_gcode", read_gcode),
+    ("read_layers", read_layers),
     ("read_obj", read_obj),
     ("read_ply", read_ply),
     ("read_stl", read_stl),

@@ -1,5 +1,6 @@
 //! The audit itself: every measure, layer by layer.
 
+use crate::closure::face;
 use crate::coherence::Stretches;
 use crate::contact::Touch;
 use crate::cycle::{CycleStart, Path, cycle_start, layers};
@@ -8,13 +9,14 @@ use crate::motion::{Motion, motions};
 use crate::section::Sections;
 use crate::settings::Tolerance;
 use crate::strand::{Piece, pieces};
+use crate::support::Beads;
 use crate::wanted::{Side, Wanted, segment_index};
 use crate::{AuditError, AuditSettings, Figures, Finding, FindingKind, Report};
-use crate::{bead, contact, coverage, crossings, crowding, motion, passage, support, turns};
+use crate::{bead, closure, contact, coverage, crossings, crowding, motion, passage, rise, support, turns};
 use argil_curve::{DVec2, SegmentIndex};
 use argil_gcode::Program;
 use argil_slice::mesh::Mesh;
-use argil_slice::{Outline, SliceSettings};
+use argil_slice::{Layer, SliceSettings, slice};
 use geo::{MultiPolygon, Translate};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -68,17 +70,21 @@ pub fn audit(program: &Program, mesh: &Mesh, settings: &AuditSettings) -> Result
     // One layer of the file for each of the mesh, and any more that the file has.
     let of_mesh = (0..outlines.len()).map(|n| lowest.saturating_add_unsigned(n as u64));
     let numbers: BTreeSet<i64> = of_mesh.chain(printed.keys().copied()).collect();
-    let empty = Outline { cut_z: f64::NEG_INFINITY, region: MultiPolygon::new(Vec::new()) };
+    let empty = Outline { plane: f64::NEG_INFINITY, region: MultiPolygon::new(Vec::new()), section: None };
     let mut sections = Sections::new(mesh);
     for number in numbers {
         let place = usize::try_from(number.saturating_sub(lowest)).ok();
         let outline = place.and_then(|n| outlines.get(n)).unwrap_or(&empty);
         let paths = printed.get(&number).map_or(&[][..], Vec::as_slice);
         let [dx, dy] = settings.offset;
-        let mut cuts = sections.at(outline.cut_z);
+        let mut cuts = sections.at(outline.plane);
         cuts.iter_mut().for_each(|cut| *cut += DVec2::new(dx, dy));
-        let wanted = Wanted::new(&outline.region, &cuts, settings, &audit.tolerance);
+        let wanted =
+            Wanted::new((&outline.region, outline.section.as_ref()), &cuts, settings, &audit.tolerance);
         audit.layer(number, place, &wanted, paths)?;
+        for region in place.map(|place| to_close(&outlines, place, settings)).into_iter().flatten() {
+            audit.closure(number, &region, &wanted, paths);
+        }
     }
     audit.close_below(None);
     Ok(audit.finished())
@@ -86,18 +92,45 @@ pub fn audit(program: &Program, mesh: &Mesh, settings: &AuditSettings) -> Result
 
 /// The model's outline on each layer, in the file's coordinates.
 fn outlines(mesh: &Mesh, settings: &AuditSettings) -> Result<Vec<Outline>, AuditError> {
+    // The slicer's own walls are none of the audit's business: it makes its own, in another way.
     let cuts = SliceSettings {
         layer_height: settings.layer_height,
         width: settings.width,
         grid: SliceSettings::default().grid.min(0.001 * settings.width),
         walls: 1,
+        surface: settings.surface,
         ..SliceSettings::default()
     };
     let [dx, dy] = settings.offset;
-    // The slicer's own walls are none of the audit's business: it makes its own, in another way.
-    let mut outlines = argil_slice::outlines(mesh, &cuts)?;
-    outlines.iter_mut().for_each(|outline| outline.region.translate_mut(dx, dy));
-    Ok(outlines)
+    let outline = |layer: Layer| Outline {
+        plane: layer.cut_z,
+        region: layer.outline.translate(dx, dy),
+        section: settings.surface.then(|| layer.walled.translate(dx, dy)),
+    };
+    Ok(slice(mesh, &cuts)?.into_iter().map(outline).collect())
+}
+
+/// The model on a layer's plane.
+struct Outline {
+    /// Height of the plane, mm.
+    plane: f64,
+    region: MultiPolygon<f64>,
+    /// What the section of a sheet goes round.
+    section: Option<MultiPolygon<f64>>,
+}
+
+/// What of a layer is to be closed: a floor whole, else its faces above and below.
+fn to_close(outlines: &[Outline], place: usize, settings: &AuditSettings) -> Vec<MultiPolygon<f64>> {
+    let region =
+        |place: Option<usize>| place.and_then(|place| outlines.get(place)).map(|outline| &outline.region);
+    let none = MultiPolygon::new(Vec::new());
+    match region(Some(place)) {
+        Some(own) if place < settings.floor => vec![own.clone()],
+        Some(own) if settings.skin => [Some(place + 1), place.checked_sub(1)]
+            .map(|other| face(own, region(other).unwrap_or(&none), settings.width))
+            .to_vec(),
+        _ => Vec::new(),
+    }
 }
 
 fn unreadable_lines(program: &Program) -> Vec<Finding> {
@@ -123,6 +156,8 @@ struct Tally {
     missed: f64,
     outline: f64,
     uncovered: f64,
+    closed: f64,
+    open: f64,
     contact: f64,
     contact_outside: f64,
     crowded: f64,
@@ -141,7 +176,7 @@ struct Tally {
 #[derive(Debug)]
 struct Below {
     number: i64,
-    beads: SegmentIndex,
+    beads: Beads,
     end: DVec2,
     free: Stretches,
     touches: Vec<Touch>,
@@ -179,6 +214,7 @@ impl Audit<'_> {
         f.transfer_mm = continuity.transfer_length;
         f.retractions = continuity.retractions;
         f.z_down_moves = continuity.moves_down;
+        f.steepest_rise_mm = rise::steepest(motions, self.settings.width);
         f.flow_per_mm_median = continuity.flow.map(|[median, ..]| median);
         f.flow_per_mm_p01_p99 = continuity.flow.map(|[_, low, high]| [low, high]);
         f.layers = printed.len();
@@ -197,8 +233,8 @@ impl Audit<'_> {
         if let (Some(place), false) = (place, wanted.walls.is_empty()) {
             self.figures.wanted_layers = self.figures.wanted_layers.max(place + 1);
         }
-        let laid = segment_index(paths.iter().map(|path| path.points.as_slice()), width);
-        self.coverage(number, wanted, &laid, paths.is_empty());
+        let laid = Beads::new(paths, width, self.settings.layer_height);
+        self.coverage(number, wanted, &laid.index, paths.is_empty());
         let Some(start) = cycle_start(paths, &self.tolerance) else { return Ok(()) };
 
         let measured: Vec<Vec<Piece>> =
@@ -284,6 +320,20 @@ impl Audit<'_> {
         }
     }
 
+    /// What of a region that is to be closed lies open.
+    fn closure(&mut self, number: i64, region: &MultiPolygon<f64>, wanted: &Wanted, paths: &[Path]) {
+        let width = self.settings.width;
+        let laid = segment_index(paths.iter().map(|path| path.points.as_slice()), width);
+        let closure = closure::measure(region, wanted, &laid, width);
+        self.tally.closed += closure.wanted;
+        self.tally.open += closure.bare;
+        let farthest = &mut self.figures.closed_farthest_widths;
+        *farthest = farthest.max(closure.farthest / width);
+        for (at, distance) in closure.open {
+            self.find(FindingKind::BareFill, number, Some(at), distance);
+        }
+    }
+
     /// Everything that is measured along one path; what of it touches the model outside.
     fn path(
         &mut self,
@@ -358,7 +408,7 @@ impl Audit<'_> {
         }
         let Some(below) = &self.below else { return };
         let gap = start.at.distance(below.end);
-        let beside = below.beads.distance(start.at);
+        let beside = below.beads.index.distance(start.at);
         self.figures.seam_gap_max_mm = self.figures.seam_gap_max_mm.max(gap);
         if gap > self.tolerance.seam {
             self.find(FindingKind::SeamGap, number, Some(start.at), gap);
@@ -375,6 +425,8 @@ impl Audit<'_> {
         figures.material_ratio = share(figures.nonmodel_mm, tally.wanted);
         figures.model_missed_fraction = share(tally.missed, tally.wanted);
         figures.contour_uncovered_fraction = share(tally.uncovered, tally.outline);
+        figures.closed_mm2 = tally.closed;
+        figures.closed_bare_fraction = share(tally.open, tally.closed);
         figures.unsupported_fraction = share(figures.unsupported_mm, figures.path_mm);
         figures.contact_per_model_mm = share(tally.contact, tally.wanted);
         figures.contact_outside_apart_from_roots = share(tally.contact_outside, tally.wanted);

@@ -12,6 +12,8 @@ const SAME_POINT: f64 = 1e-6;
 #[derive(Clone, Debug)]
 pub(crate) struct Path {
     pub(crate) points: Vec<DVec2>,
+    /// The height of the nozzle at each point, mm.
+    pub(crate) heights: Vec<f64>,
     /// Whether the segment from point k to point k + 1 is floor, roof or infill.
     pub(crate) fill: Vec<bool>,
 }
@@ -29,11 +31,12 @@ pub(crate) fn layers(motions: &[Motion]) -> BTreeMap<i64, Vec<Path>> {
             continue;
         }
         if !*underway {
-            paths.push(Path { points: vec![m.from], fill: Vec::new() });
+            paths.push(Path { points: vec![m.from], heights: vec![m.z], fill: Vec::new() });
             *underway = true;
         }
         if let Some(path) = paths.last_mut() {
             path.points.push(m.to);
+            path.heights.push(m.z + m.rise);
             path.fill.push(m.is_fill);
         }
     }
@@ -87,7 +90,12 @@ mod tests {
     use super::*;
 
     fn path(points: &[(f64, f64)]) -> Path {
-        Path { points: points.iter().map(|&p| p.into()).collect(), fill: vec![false; points.len() - 1] }
+        let heights = vec![0.5; points.len()];
+        Path {
+            points: points.iter().map(|&p| p.into()).collect(),
+            heights,
+            fill: vec![false; points.len() - 1],
+        }
     }
 
     #[test]

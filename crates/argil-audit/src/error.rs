@@ -3,7 +3,7 @@
 use argil_slice::SliceError;
 
 /// Why an audit could not be made. What is wrong with the print is no error: it is in the report.
-#[derive(Debug, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum AuditError {
     /// A setting is not a positive number (or, for the offset, not a number at all).

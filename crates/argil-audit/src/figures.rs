@@ -25,7 +25,7 @@ macro_rules! figures {
         /// What the audit measures. Lengths in mm; "wall length" is the length of wall path that the model
         /// asks for.
         #[derive(Clone, Debug, Default, PartialEq)]
-        #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(default))]
         #[non_exhaustive]
         pub struct Figures {
             $($(#[$docs])* pub $name: $type,)*
@@ -65,6 +65,9 @@ figures! {
     retractions: Count(usize),
     /// Moves that go down.
     z_down_moves: Count(usize),
+    /// The most that the nozzle rises within one bead width of its path: a layer's height where layers lie level, less where they
+    /// rise along their cycles.
+    steepest_rise_mm: Measure(f64),
     /// Layers with a path.
     layers: Count(usize),
     /// The most paths in a layer; 1 in a continuous print.
@@ -95,6 +98,12 @@ figures! {
     model_missed_layers: Count(usize),
     /// Share of the outline that no bead reaches: thin features.
     contour_uncovered_fraction: Measure(f64),
+    /// Area of floors and faces that are to be closed and that a bead inside of the model can reach, mm².
+    closed_mm2: Measure(f64),
+    /// Share of it that lies farther than half a bead from the middle of every bead.
+    closed_bare_fraction: Measure(f64),
+    /// The greatest distance of a place of it from the middle of a bead, in bead widths.
+    closed_farthest_widths: Measure(f64),
     /// Stretches longer than the longest bridge with nothing below.
     unsupported_spans: Count(usize),
     /// Their length.

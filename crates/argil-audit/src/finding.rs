@@ -4,7 +4,7 @@ use argil_curve::DVec2;
 
 /// What was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "snake_case"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum FindingKind {
     /// A line that the reader could not make sense of; the measure is its number in the file.
@@ -40,6 +40,9 @@ pub enum FindingKind {
     /// A stretch of outline longer than a bead that no bead reaches, since the model is thinner there; the measure is
     /// its length, mm.
     BareOutline,
+    /// A place of a floor or face that is to be closed, farther than 0.55 beads from the middle of every bead; the measure is
+    /// that distance, mm.
+    BareFill,
     /// A stretch of non-model strand that holds nothing, joins nothing and lies away from the strand above; the measure
     /// is the length farther than one bead from that, mm.
     Jump,
@@ -69,6 +72,7 @@ impl FindingKind {
             Self::SharpTurn => "sharp turn",
             Self::SharpBend => "sharp bend",
             Self::BareOutline => "bare outline",
+            Self::BareFill => "open place in a floor or face",
             Self::Jump => "jump",
             Self::Contact => "contact",
         }
@@ -77,7 +81,7 @@ impl FindingKind {
 
 /// One fault or point of interest.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Finding {
     /// What was found.
     pub kind: FindingKind,
@@ -85,13 +89,7 @@ pub struct Finding {
     pub layer: i64,
     /// Where in the plane, mm: the middle of a stretch, the beginning of a move. `None` for what has no one
     /// place.
-    #[cfg_attr(feature = "serde", serde(serialize_with = "as_pair"))]
     pub at: Option<DVec2>,
     /// How much, in the unit that the kind tells.
     pub measure: f64,
-}
-
-#[cfg(feature = "serde")]
-fn as_pair<S: serde::Serializer>(at: &Option<DVec2>, to: S) -> Result<S::Ok, S::Error> {
-    serde::Serialize::serialize(&at.map(|p| [p.x, p.y]), to)
 }

@@ -7,8 +7,14 @@ use argil_curve::{DVec2, Segment, SegmentIndex};
 const ONE_PLACE: f64 = 1.0;
 
 /// Why the strand touches the model.
+///
+/// # Example
+/// ```
+/// use argil_audit::ContactCause;
+/// assert_eq!(ContactCause::Narrow.name(), "between two parts");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "snake_case"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum ContactCause {
     /// The strand leaves or joins the wall here, as it must somewhere.
@@ -39,7 +45,7 @@ impl ContactCause {
 
 /// A place where non-model strand lies within one bead of the model's wall, outside of the model.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct ContactPlace {
     /// Why it is there.
@@ -48,16 +54,12 @@ pub struct ContactPlace {
     pub first_layer: i64,
     /// The highest of its layers.
     pub last_layer: i64,
-    /// Its middle in the plane, mm.
-    #[cfg_attr(feature = "serde", serde(serialize_with = "as_pair"))]
+    /// A point of the strand that touches, mm: the middle of the touch that is nearest to the mean of all.
     pub at: DVec2,
+    /// The layer of that point, by the file's own number.
+    pub layer: i64,
     /// Length of strand that touches, over all its layers, mm.
     pub length: f64,
-}
-
-#[cfg(feature = "serde")]
-fn as_pair<S: serde::Serializer>(at: &DVec2, to: S) -> Result<S::Ok, S::Error> {
-    serde::Serialize::serialize(&[at.x, at.y], to)
 }
 
 /// Gathers the touches of layer after layer into places.
@@ -79,6 +81,19 @@ struct Place {
     length: f64,
     /// Sum of places by length, mm².
     moment: DVec2,
+    /// The middle of each touch, and its layer.
+    touches: Vec<(DVec2, i64)>,
+}
+
+impl Place {
+    /// The touch that is nearest to the mean; of several the first.
+    fn middle(&self) -> (DVec2, i64) {
+        let mean = self.moment / self.length.max(f64::MIN_POSITIVE);
+        let nearer = |a: (DVec2, i64), b: (DVec2, i64)| {
+            if b.0.distance_squared(mean) < a.0.distance_squared(mean) { b } else { a }
+        };
+        self.touches.iter().copied().reduce(nearer).unwrap_or((mean, self.first))
+    }
 }
 
 impl Ledger {
@@ -118,6 +133,7 @@ impl Ledger {
             entry.last = number;
             entry.length += touch.length;
             entry.moment += touch.length * touch.middle;
+            entry.touches.push((touch.middle, number));
             now.push((touch, place));
         }
         self.before = now;
@@ -128,12 +144,16 @@ impl Ledger {
     pub(crate) fn finished(self) -> Vec<ContactPlace> {
         let whole = self.places.iter().enumerate().filter(|(k, place)| place.part_of == *k);
         let mut places: Vec<ContactPlace> = whole
-            .map(|(_, place)| ContactPlace {
-                cause: place.cause,
-                first_layer: place.first,
-                last_layer: place.last,
-                at: place.moment / place.length.max(f64::MIN_POSITIVE),
-                length: place.length,
+            .map(|(_, place)| {
+                let (at, layer) = place.middle();
+                ContactPlace {
+                    cause: place.cause,
+                    first_layer: place.first,
+                    last_layer: place.last,
+                    at,
+                    layer,
+                    length: place.length,
+                }
             })
             .collect();
         places.sort_by_key(|place| (place.first_layer, place.last_layer, place.cause));
@@ -162,12 +182,14 @@ impl Sets for Vec<Place> {
         if keeps != goes {
             let (first, last) = (self[goes].first, self[goes].last);
             let (length, moment) = (self[goes].length, self[goes].moment);
+            let mut touches = std::mem::take(&mut self[goes].touches);
             self[goes].part_of = keeps;
             let whole = &mut self[keeps];
             whole.first = whole.first.min(first);
             whole.last = whole.last.max(last);
             whole.length += length;
             whole.moment += moment;
+            whole.touches.append(&mut touches);
         }
         keeps
     }
@@ -175,7 +197,15 @@ impl Sets for Vec<Place> {
     fn opened(&mut self, cause: ContactCause, layer: i64) -> usize {
         let place = self.len();
         let (length, moment) = (0.0, DVec2::ZERO);
-        self.push(Place { part_of: place, cause, first: layer, last: layer, length, moment });
+        self.push(Place {
+            part_of: place,
+            cause,
+            first: layer,
+            last: layer,
+            length,
+            moment,
+            touches: Vec::new(),
+        });
         place
     }
 }
@@ -208,6 +238,7 @@ mod tests {
         let places = ledger.finished();
         let told: Vec<_> = places.iter().map(|p| (p.cause, p.first_layer, p.last_layer, p.length)).collect();
         assert_eq!(told, [(Passing, 3, 4, 11.5), (Root, 4, 4, 1.0), (Passing, 6, 6, 2.0)]);
-        assert!((places[0].at.x - (2.0 + 36.0 + 5.25 * 5.5) / 11.5).abs() < 1e-9);
+        // The mean is at (5.8, 0.7), off all three; the nearest of them is told.
+        assert_eq!((places[0].at, places[0].layer), (DVec2::new(5.25, 0.0), 4));
     }
 }

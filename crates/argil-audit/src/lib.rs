@@ -11,6 +11,7 @@
 
 mod audit;
 mod bead;
+mod closure;
 mod coherence;
 mod contact;
 mod coverage;
@@ -25,6 +26,7 @@ mod motion;
 mod passage;
 mod region;
 mod report;
+mod rise;
 mod sampling;
 mod section;
 mod settings;

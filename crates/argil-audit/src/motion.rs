@@ -23,6 +23,8 @@ const FILL: [&str; 6] = ["fill", "skin", "top", "bottom", "floor", "roof"];
 pub(crate) struct Motion {
     pub(crate) from: DVec2,
     pub(crate) to: DVec2,
+    /// Height where it begins.
+    pub(crate) z: f64,
     pub(crate) rise: f64,
     pub(crate) extruded: f64,
     pub(crate) layer: i64,
@@ -79,6 +81,7 @@ pub(crate) fn motions(program: &Program, layer_height: f64) -> Vec<Motion> {
         .map(|m| Motion {
             from: DVec2::new(m.from[0], m.from[1]),
             to: DVec2::new(m.to[0], m.to[1]),
+            z: m.from[2],
             rise: m.to[2] - m.from[2],
             extruded: m.extruded,
             layer: layer_of(m),

@@ -12,7 +12,19 @@ const SHOWN: usize = 5;
 const MISSED: f64 = 0.002;
 
 /// What the audit found.
+///
+/// # Example
+/// ```
+/// use argil_audit::{Amount, AuditSettings, Report, audit, gcode::read_gcode, mesh::Mesh};
+/// let plate = Mesh::cuboid([0.0; 3], [20.0, 20.0, 0.5])?;
+/// let square = "M83\nG0 X.75 Y.75 Z.5\nG1 X19.25 E1\nG1 Y19.25 E1\nG1 X.75 E1\nG1 Y.75 E1\n";
+/// let report: Report = audit(&read_gcode(square), &plate, &AuditSettings::default())?;
+/// assert!(report.is_sound(), "{report}");
+/// assert!(report.figures.entries().contains(&("layers", Amount::Count(1))));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Report {
     /// What was asked for.
     pub settings: AuditSettings,
@@ -169,5 +181,21 @@ impl serde::Serialize for Report {
         report.serialize_field("findings", &self.findings)?;
         report.serialize_field("contacts", &self.contacts)?;
         report.end()
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<'de> serde::Deserialize<'de> for Report {
+    /// The verdict is drawn anew from settings and figures, whatever the text says.
+    fn deserialize<D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        #[derive(serde::Deserialize)]
+        struct Measured {
+            settings: AuditSettings,
+            figures: Figures,
+            findings: Vec<Finding>,
+            contacts: Vec<ContactPlace>,
+        }
+        let Measured { settings, figures, findings, contacts } = Measured::deserialize(from)?;
+        Ok(Self { settings, figures, findings, contacts })
     }
 }

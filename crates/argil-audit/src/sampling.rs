@@ -20,6 +20,8 @@ pub(crate) struct Sample {
     pub(crate) length: f64,
     /// Segment of the polyline that the piece belongs to.
     pub(crate) segment: usize,
+    /// Where on the segment, from 0 to 1.
+    pub(crate) share: f64,
 }
 
 /// Cuts every segment into equal pieces no longer than `step` and puts a sample into the middle of each.
@@ -32,10 +34,12 @@ pub(crate) fn samples(points: &[DVec2], step: f64) -> Vec<Sample> {
         }
         let pieces = (length / step - WHOLE).ceil().max(1.0) as usize;
         let share = 1.0 / pieces as f64;
+        let middle = |k: usize| (k as f64 + 0.5) * share;
         samples.extend((0..pieces).map(|k| Sample {
-            at: pair[0].lerp(pair[1], (k as f64 + 0.5) * share),
+            at: pair[0].lerp(pair[1], middle(k)),
             length: length * share,
             segment,
+            share: middle(k),
         }));
     }
     samples

@@ -108,22 +108,7 @@ mod tests {
 
     #[test]
     fn the_sides_of_a_box_are_cut_at_the_edges_of_their_triangles() {
-        let corner = |k: u32| [9.0 * f64::from(k & 1), 9.0 * f64::from(k >> 1 & 1), 3.0 * f64::from(k >> 2)];
-        let sides = vec![
-            [0, 2, 1],
-            [1, 2, 3],
-            [4, 5, 6],
-            [5, 7, 6],
-            [0, 1, 4],
-            [1, 5, 4],
-            [2, 6, 3],
-            [3, 6, 7],
-            [0, 4, 2],
-            [2, 4, 6],
-            [1, 3, 5],
-            [3, 7, 5],
-        ];
-        let mesh = Mesh::new((0..8).map(corner).collect(), sides).unwrap();
+        let mesh = Mesh::cuboid([0.0; 3], [9.0, 9.0, 3.0]).unwrap();
         let mut sections = Sections::new(&mesh);
         let square = [(0.0, 0.0), (9.0, 0.0), (9.0, 9.0), (0.0, 9.0), (0.0, 0.0)].map(DVec2::from).to_vec();
         for plane in [0.5, 1.0, 1.5, 3.0] {

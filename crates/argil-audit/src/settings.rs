@@ -16,7 +16,7 @@ const REFERENCE_WIDTH: f64 = 1.5;
 /// assert_eq!(AuditSettings::default(), AuditSettings::for_width(1.5));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct AuditSettings {
     /// Bead width w. A wider bead covers more and doubles more.
     pub width: f64,
@@ -29,6 +29,12 @@ pub struct AuditSettings {
     pub layer_height: f64,
     /// Loops of wall asked for: loop k lies (k + ½) w inside the outline. At least 1.
     pub walls: usize,
+    /// How many of the lowest layers are to be closed whole.
+    pub floor: usize,
+    /// Whether every face that looks up or down and is wider than a bead is to be closed.
+    pub skin: bool,
+    /// Whether the mesh is a sheet without thickness: the paths of walls are its sections themselves.
+    pub surface: bool,
     /// How far a bead may lie beside the one below it and still be held, `ε_across` of the paper's Section
     /// 3.2. It belongs to the paste: other presets use half of the default 0.3 w, which reports more spans.
     pub across: f64,
@@ -58,6 +64,9 @@ impl AuditSettings {
             tolerance_width: width,
             layer_height: width / 3.0,
             walls: 1,
+            floor: 0,
+            skin: false,
+            surface: false,
             across: 0.3 * width,
             along: 1.6 * width,
             step: width / 15.0,

@@ -10,6 +10,8 @@ use argil_curve::DVec2;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Piece {
     pub(crate) at: DVec2,
+    /// Height of the nozzle over it, mm.
+    pub(crate) z: f64,
     /// Length of the piece, mm.
     pub(crate) length: f64,
     /// Arc length of its middle from the beginning of the path, mm.
@@ -37,8 +39,10 @@ pub(crate) fn pieces(path: &Path, wanted: &Wanted, step: f64, tolerance: &Tolera
         .map(|s| {
             run += s.length;
             let (wall_distance, side) = wanted.place(s.at, tolerance);
+            let height = |k: usize| path.heights.get(k).copied().unwrap_or_default();
             Piece {
                 at: s.at,
+                z: height(s.segment) + s.share * (height(s.segment + 1) - height(s.segment)),
                 length: s.length,
                 arc: run - 0.5 * s.length,
                 is_fill: path.fill.get(s.segment).copied().unwrap_or(false),

@@ -53,15 +53,16 @@ pub(crate) struct Wanted {
 }
 
 impl Wanted {
-    /// What is wanted of a layer with this outline; `cuts` are the points in which edges of the mesh meet its plane.
+    /// What is wanted of a layer with this outline, or of a sheet with this section and half a bead round it; `cuts` are the points in which
+    /// edges of the mesh meet its plane.
     pub(crate) fn new(
-        outline: &MultiPolygon<f64>,
+        (outline, section): (&MultiPolygon<f64>, Option<&MultiPolygon<f64>>),
         cuts: &[DVec2],
         settings: &AuditSettings,
         tolerance: &Tolerance,
     ) -> Self {
         let width = settings.width;
-        let inner = wall_paths(outline, 0.5 * width, width);
+        let inner = section.cloned().unwrap_or_else(|| wall_paths(outline, 0.5 * width, width));
         let outermost = rings(&inner);
         let inner_region = Region::new(&outermost);
         let mut walls = outermost.clone();
@@ -144,6 +145,12 @@ impl Wanted {
                 other.distance < reach && towards.dot(away) < OPPOSITE * nearest.distance * other.distance;
         });
         between
+    }
+
+    /// Whether a bead that stays inside of the outline reaches `p`.
+    pub(crate) fn is_reached(&self, p: DVec2) -> bool {
+        let outermost = self.outermost_index.as_ref().unwrap_or(&self.wall_index);
+        self.inner.contains(p) || outermost.nearest_within(p, 0.5 * self.width).is_some()
     }
 
     /// Whether a wall path lies within `reach` mm of `p`.

@@ -356,3 +356,59 @@ fn json_has_the_figures_by_name() {
     assert_eq!(span["layer"], 5);
     assert!(span["at"][0].as_f64().unwrap() > RADIUS);
 }
+
+/// The tube as a spiral: a level turn, turns that rise evenly by `pitch`, and a level one at last. Moves of the given turn lie
+/// higher by so much.
+fn spiral(pitch: f64, lifted: Option<(usize, f64)>) -> String {
+    let mut text = String::from("M83\n");
+    let ring = ring();
+    let (x, y) = ring[0];
+    writeln!(text, "G0 X{x:.4} Y{y:.4} Z{HEIGHT}").unwrap();
+    for layer in 0..LAYERS {
+        writeln!(text, ";LAYER:{layer}").unwrap();
+        for (k, (x, y)) in ring.iter().enumerate().skip(1) {
+            let turns = (layer as f64 - 1.0 + k as f64 / f64::from(SIDES)).clamp(0.0, LAYERS as f64 - 2.0);
+            let lift = lifted.filter(|&(turn, _)| layer >= turn).map_or(0.0, |(_, by)| by);
+            writeln!(text, "G1 X{x:.4} Y{y:.4} Z{:.4} E1", HEIGHT + pitch * turns + lift).unwrap();
+        }
+    }
+    text
+}
+
+#[test]
+fn a_spiral_is_sound_and_has_no_step() {
+    let of = |text: &str| audit(&read_gcode(text), &tube(), &AuditSettings::default()).unwrap();
+    let level = audited(&tube_but(|_| None));
+    let report = of(&spiral(HEIGHT, None));
+    assert!(report.is_sound(), "{report}");
+    assert_eq!(report.figures.layers, LAYERS);
+    assert!((level.figures.steepest_rise_mm - HEIGHT).abs() < 1e-9, "{level}");
+    assert!(report.figures.steepest_rise_mm < 0.02 * HEIGHT, "{report}");
+}
+
+#[test]
+fn turns_too_far_above_the_one_below() {
+    let of = |text: &str| audit(&read_gcode(text), &tube(), &AuditSettings::default()).unwrap();
+    // One turn that leaps up has no hold; what follows lies on it.
+    let report = of(&spiral(HEIGHT, Some((4, 0.5))));
+    let short: Vec<&str> = report.falls_short().iter().map(|short| short.figure).collect();
+    assert_eq!(short, ["unsupported_spans"], "{report}");
+    assert!(report.findings_of(FindingKind::UnsupportedSpan).all(|span| span.layer == 4), "{report}");
+    assert!(report.figures.unsupported_mm > 80.0, "{report}");
+    assert!(of(&spiral(HEIGHT, Some((4, 0.2)))).is_sound());
+    // And so has every turn of a helix that rises too steeply, the first and the last where they are thickest.
+    assert!(of(&spiral(1.5 * HEIGHT, None)).is_sound());
+    assert_eq!(of(&spiral(1.7 * HEIGHT, None)).figures.unsupported_spans, LAYERS - 1);
+}
+
+#[test]
+fn a_spiral_that_goes_down_or_stays_open() {
+    let of = |text: &str| audit(&read_gcode(text), &tube(), &AuditSettings::default()).unwrap();
+    let down = spiral(HEIGHT, None).replacen(";LAYER:5\n", "G1 Z2.4 E0\n;LAYER:5\n", 1);
+    assert_eq!(of(&down).falls_short().iter().map(|s| s.figure).collect::<Vec<_>>(), ["z_down_moves"]);
+    let good = spiral(HEIGHT, None);
+    let (head, tail) = good.split_once(";LAYER:5\n").unwrap();
+    let cut: Vec<&str> = head.lines().collect();
+    let open = format!("{}\n;LAYER:5\n{tail}", cut[..cut.len() - 12].join("\n"));
+    assert!(of(&open).falls_short().iter().any(|s| s.figure == "open_layers"));
+}

@@ -9,25 +9,8 @@ use std::fmt::Write;
 
 /// A box from the origin to `size`, moved by `offset`.
 fn block(size: [f64; 3], offset: [f64; 2]) -> Mesh {
-    let at = |k: u32, axis: usize| {
-        f64::from(k >> axis & 1) * size[axis] + offset.get(axis).copied().unwrap_or(0.0)
-    };
-    let corners = (0..8).map(|k| [at(k, 0), at(k, 1), at(k, 2)]).collect();
-    let sides = vec![
-        [0, 2, 1],
-        [1, 2, 3],
-        [4, 5, 6],
-        [5, 7, 6],
-        [0, 1, 4],
-        [1, 5, 4],
-        [2, 6, 3],
-        [3, 6, 7],
-        [0, 4, 2],
-        [2, 4, 6],
-        [1, 3, 5],
-        [3, 7, 5],
-    ];
-    Mesh::new(corners, sides).unwrap()
+    let [x, y] = offset;
+    Mesh::cuboid([x, y, 0.0], [x + size[0], y + size[1], size[2]]).unwrap()
 }
 
 /// Layers of loops as g-code, scaled and then moved; moves whose running number is in `dry` lay nothing.

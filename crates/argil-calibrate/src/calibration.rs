@@ -6,6 +6,8 @@ use crate::{CalibrateError, fan, ring, windows};
 
 /// The bead that is tried, and where the prints stand.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct Calibration {
     /// Width of the bead, mm. Default 1.5. What a paste bears is a share of it, but not the same share at every width:
     /// try the one that will be printed with.

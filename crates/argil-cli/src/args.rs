@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use argil::Infill;
 use argil::mesh::Unit;
 use clap::{Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
@@ -65,6 +66,7 @@ const PLAN_EXAMPLES: &str = "Examples:
   argil plan vase.stl -o vase.gcode --width 3 --layer-height 1 --height 120 --place center
   argil plan vase.stl -o vase.gcode --printer eazao-zero --material stoneware
   argil plan sample:cup -o cup.gcode --preview cup.html
+  argil plan sample:cup -o cup.gcode --spiral --skirt
   argil plan sample:cup -o cup.gcode --cleaning cup-cleaning.html
   argil plan sample:cup -o cup.gcode --svg layers --report cup.json
 
@@ -95,6 +97,9 @@ pub(crate) struct BeadArgs {
     /// Walls side by side along every outline.
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(crate) walls: usize,
+    /// The model is a sheet without thickness, as for spiral vases: its surface is the path of the wall itself.
+    #[arg(long)]
+    pub(crate) surface: bool,
     /// How far a bead may lie beside the one below, in bead widths [default: the material's, or 0.3].
     #[arg(long, value_name = "RATIO", allow_negative_numbers = true)]
     pub(crate) across: Option<f64>,
@@ -140,6 +145,14 @@ pub(crate) enum Place {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Pattern {
+    /// Rings one inside the other, each joined to the next.
+    Rings,
+    /// Double spirals where rings do not branch: they turn back at their ends alone.
+    Spirals,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum UnitArg {
     /// 0.001 mm.
     Micron,
@@ -170,7 +183,7 @@ impl From<UnitArg> for Unit {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct PlanArgs {
-    /// The model: an STL, OBJ, PLY or 3MF file, layers in JSON, or sample:NAME.
+    /// The model: an STL, OBJ, PLY or 3MF file, layers in SVG or JSON, or sample:NAME.
     #[arg(value_name = "MODEL")]
     pub(crate) model: String,
     /// Where the g-code goes; for a robot cell, the table of poses.
@@ -211,6 +224,22 @@ pub(crate) struct PlanArgs {
     /// Close every face that looks up or down and is wider than a bead, with N layers.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) skin: usize,
+    /// Let the layers rise evenly along their cycles wherever they can, so that no step is left between them.
+    #[arg(long)]
+    pub(crate) spiral: bool,
+    /// Go round the part on the bed first, in the same strand; `--skirt=3` goes round three times, `--skirt` twice.
+    #[arg(long, value_name = "N", num_args = 0..=1, require_equals = true, default_missing_value = "2")]
+    pub(crate) skirt: Option<usize>,
+    /// From the part to the skirt, middle of bead to middle of bead, in bead widths.
+    #[arg(long, value_name = "RATIO", default_value_t = 3.0, allow_negative_numbers = true)]
+    pub(crate) skirt_distance: f64,
+    /// How floors and skins are filled.
+    #[arg(long, value_enum, default_value_t = Pattern::Rings)]
+    pub(crate) fill_pattern: Pattern,
+    /// Fill the inside of the walls sparsely, with this share of clay; `auto`: only below what `--skin` fills, as dense and as far down as
+    /// that needs, and only if the strand gets shorter than with support from the walls.
+    #[arg(long, value_name = "RATIO|auto", value_parser = infill, allow_negative_numbers = true)]
+    pub(crate) infill: Option<Infill>,
     #[command(flatten)]
     pub(crate) place: PlaceArgs,
     #[command(flatten)]
@@ -218,6 +247,13 @@ pub(crate) struct PlanArgs {
     /// Write a table of poses for robot cells as well.
     #[arg(long, value_name = "OUT.csv")]
     pub(crate) poses: Option<PathBuf>,
+    /// Write a plan also where it reaches beyond the printer's volume.
+    #[arg(long)]
+    pub(crate) beyond_volume: bool,
+    /// Write what was planned after all repairs: the outline of each layer as a prism, as STL. Measure other prints of the same file
+    /// against it, or look at what became of it.
+    #[arg(long, value_name = "OUT.stl")]
+    pub(crate) repaired: Option<PathBuf>,
     /// Refuse a model that has to be repaired, and tell what is wrong with it and where.
     #[arg(long)]
     pub(crate) strict: bool,
@@ -268,10 +304,24 @@ pub(crate) struct AuditArgs {
     /// Write the figures as JSON; `-` is standard output, in place of the text.
     #[arg(long, value_name = "OUT.json")]
     pub(crate) json: Option<PathBuf>,
+    /// How many of the lowest layers are to be closed: what of them lies open is measured.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) floor: usize,
+    /// Whether faces that look up or down are to be closed: what of them lies open is measured.
+    #[arg(long)]
+    pub(crate) skin: bool,
     #[command(flatten)]
     pub(crate) bead: BeadArgs,
     #[command(flatten)]
     pub(crate) place: PlaceArgs,
+}
+
+/// `auto`, or a number.
+fn infill(text: &str) -> Result<Infill, String> {
+    match text {
+        "auto" => Ok(Infill::Auto),
+        _ => text.parse().map(Infill::Ratio).map_err(|_| "must be `auto` or a number".to_owned()),
+    }
 }
 
 impl PlanArgs {
@@ -290,6 +340,7 @@ impl CalibrateArgs {
             width: self.width,
             layer_height: self.layer_height,
             walls: 1,
+            surface: false,
             across: None,
             along: None,
         }

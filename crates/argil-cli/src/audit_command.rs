@@ -2,9 +2,9 @@
 
 use std::process::ExitCode;
 
-use argil::Settings;
 use argil::gcode::read_gcode;
 use argil::mesh::Mesh;
+use argil::{Document, Settings};
 use argil_audit::{AuditSettings, Report, audit};
 
 use crate::args::AuditArgs;
@@ -16,9 +16,13 @@ use crate::{input, output};
 /// Measures a file and tells what it found.
 pub(crate) fn run(args: &AuditArgs) -> Result<ExitCode, Failure> {
     let profiles = Profiles::of(&args.bead)?;
-    let settings = input::settings(&args.bead, &profiles)?;
+    let settings = Settings {
+        floor: args.floor,
+        skin: usize::from(args.skin),
+        ..input::settings(&args.bead, &profiles)?
+    };
     args.json.iter().try_for_each(|path| output::check(path))?;
-    let mesh = input::model(&args.model, args.place, &profiles, settings.layer_height)?.mesh;
+    let mesh = input::model(&args.model, args.place, &profiles, &settings)?.mesh;
     let bytes = std::fs::read(&args.gcode).map_err(|source| Failure::reading(&args.gcode, source))?;
     let wanted = wanted(&settings);
     let wanted =
@@ -31,7 +35,7 @@ pub(crate) fn run(args: &AuditArgs) -> Result<ExitCode, Failure> {
         println!("{report}");
     }
     if let Some(path) = &args.json {
-        let json = serde_json::to_vec_pretty(&report)
+        let json = serde_json::to_vec_pretty(&Document(&report))
             .map_err(|source| Failure::Output { what: "report", source: Box::new(source) })?;
         output::write(path, &json)?;
     }
@@ -53,6 +57,9 @@ fn wanted(settings: &Settings) -> AuditSettings {
     AuditSettings {
         layer_height: settings.layer_height,
         walls: settings.walls,
+        floor: settings.floor,
+        skin: settings.skin > 0,
+        surface: settings.surface,
         across: criterion.across,
         along: criterion.along,
         ..AuditSettings::for_width(settings.width)

@@ -24,6 +24,7 @@ pub(crate) fn with_file(command: &Command, typed: Vec<OsString>) -> Result<Vec<O
     let text = fs::read_to_string(path).map_err(|source| Failure::reading(path, source))?;
     let table: Table = toml::from_str(&text).map_err(|source| Failure::input(&file, source))?;
     let given: Vec<String> = typed.iter().filter_map(long_name).collect();
+    // The program and its command are there: the latter was found.
     let mut words: Vec<OsString> = typed[..2].to_vec();
     for (key, value) in &table {
         let refuse = |why: String| Failure::Config { file: file.clone(), key: key.clone(), why };

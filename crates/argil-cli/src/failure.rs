@@ -6,6 +6,8 @@ use std::process::ExitCode;
 
 use argil::mesh::{Format, MeshError};
 
+use crate::machine::Beyond;
+
 /// The plan stands or the file was read, but there are findings.
 pub(crate) const FINDINGS: u8 = 4;
 const BAD_INPUT: u8 = 3;
@@ -36,6 +38,8 @@ pub(crate) enum Failure {
     Config { file: String, key: String, why: String },
     /// The machine cannot be written for like this.
     Machine { source: argil::gcode::GcodeError },
+    /// The printer does not reach all of a model or of its print.
+    Beyond { what: &'static str, printer: String, beyond: Beyond },
     /// The bed is to be centred on, but no printer is given whose bed is known.
     NoBed,
     /// An option has a value that cannot be.
@@ -69,7 +73,7 @@ impl Failure {
 
     /// A file of layers that cannot be read.
     pub(crate) fn layers(name: &str, source: impl std::error::Error + 'static) -> Self {
-        Self::Input { name: format!("{name}, read as layers in JSON"), source: Box::new(source) }
+        Self::Input { name: format!("{name}, read as layers"), source: Box::new(source) }
     }
 
     /// A setting that cannot be, under the name that it has on the command line.
@@ -104,7 +108,7 @@ impl fmt::Display for Failure {
             Self::Format { name } => {
                 write!(
                     f,
-                    "{name}: no STL, OBJ, PLY or 3MF file, and no layers in JSON; export the model as one of these"
+                    "{name}: no STL, OBJ, PLY or 3MF file, and no layers in SVG or JSON; export the model as one of these"
                 )
             }
             Self::LayerHeight { name, given, planned } => {
@@ -141,6 +145,11 @@ impl fmt::Display for Failure {
                 }
                 _ => write!(f, "{source}"),
             },
+            Self::Beyond { what, printer, beyond } => write!(
+                f,
+                "the {what} reaches {beyond}, beyond {printer}\n       nothing was written; --place bed centres it, --scale or --height \
+                 makes it smaller, --beyond-volume writes it all the same"
+            ),
             Self::NoBed => write!(f, "--place bed: needs a --printer whose bed is known"),
             Self::Option { option, source } => write!(f, "{option}: {source}"),
             Self::Plan { name, source } => {
@@ -158,7 +167,10 @@ impl fmt::Display for Failure {
 fn advice(error: &argil::PlanError) -> Option<&'static str> {
     use argil::PlanError::{Layer, Nothing, Seam, Slice};
     match error {
-        Nothing => Some("try a smaller --width, or a larger --scale if the file is not in millimetres"),
+        Nothing => Some(
+            "try a smaller --width, a larger --scale if the file is not in millimetres, or --surface if the model is a sheet \
+             without thickness",
+        ),
         Slice(argil::slice::SliceError::ThinnerThanALayer { .. }) => {
             Some("try a smaller --layer-height, or a larger --scale if the file is not in millimetres")
         }
@@ -166,8 +178,15 @@ fn advice(error: &argil::PlanError) -> Option<&'static str> {
             Some("try --height, or --scale 0.001 if the file is in micrometres")
         }
         Slice(argil::slice::SliceError::Open { .. }) => Some(
-            "nothing was written; close the hole in the program that the model was made in, or with one that repairs meshes",
+            "nothing was written; close the hole in the program that the model was made in, or with one that repairs meshes; if \
+             the model is a sheet without thickness, say --surface",
         ),
+        Slice(argil::slice::SliceError::InsideOut { .. }) => Some(
+            "nothing was written; turn the surface round in the program that the model was made in, or join the bodies there",
+        ),
+        Slice(argil::slice::SliceError::Overlap { .. }) => {
+            Some("nothing was written; without --strict bodies that overlap are made one")
+        }
         Slice(argil::slice::SliceError::Gap { .. }) => {
             Some("nothing was written; without --strict the gap is closed with a straight line")
         }

@@ -26,13 +26,14 @@ pub(crate) struct Model {
     pub(crate) remarks: Vec<String>,
 }
 
-/// The placed mesh of a file or bundled model, which is to be cut into layers of this height.
+/// The placed mesh of a file or bundled model, which is to be planned with these settings.
 pub(crate) fn model(
     name: &str,
     place: PlaceArgs,
     profiles: &Profiles,
-    layer_height: f64,
+    settings: &Settings,
 ) -> Result<Model, Failure> {
+    let layer_height = settings.layer_height;
     let bytes = match name.strip_prefix(SAMPLE) {
         Some(sample) => {
             argil_models::by_name(sample).ok_or_else(|| Failure::Sample { name: sample.to_owned() })?.to_stl()
@@ -43,14 +44,14 @@ pub(crate) fn model(
         }
     };
     if layer_file::is_layer_file(&bytes) {
-        let layers = layer_file::read(name, &bytes, place.unit)?;
+        let layers = layer_file::read(name, &bytes, place, settings)?;
         let mesh = placed(name, &layers.mesh, place, profiles)?;
         let given = layers.layer_height * (mesh.bounds().size()[2] / layers.mesh.bounds().size()[2]);
         if (given / layer_height - 1.0).abs() > SAME_HEIGHT {
             return Err(Failure::LayerHeight { name: name.to_owned(), given, planned: layer_height });
         }
         limits::check_mesh(Path::new(name), &mesh, layer_height, place.memory)?;
-        return Ok(Model { mesh, repairs: Repairs::default(), remarks: Vec::new() });
+        return Ok(Model { mesh, repairs: Repairs::default(), remarks: layers.remarks });
     }
     let (soup, remarks) = soup(name, bytes, place)?;
     let (mesh, repairs) = soup.repaired().map_err(|source| Failure::input(name, source))?;
@@ -68,7 +69,8 @@ fn soup(name: &str, bytes: Vec<u8>, place: PlaceArgs) -> Result<(Soup, Vec<Strin
     let mut remarks: Vec<String> = soup.remarks.iter().map(ToString::to_string).collect();
     let unit = place.unit.map(Unit::from).or(soup.unit);
     if unit.is_none() && place.scale.is_none() && place.height.is_none() {
-        remarks.extend(odd_size(&soup));
+        let extent = soup.bounds().size().into_iter().fold(f64::NEG_INFINITY, f64::max);
+        remarks.extend(odd_size(extent));
     }
     Ok((soup.in_millimetres(unit.unwrap_or(Unit::Millimetre)), remarks))
 }
@@ -93,9 +95,8 @@ fn placed(name: &str, mesh: &Mesh, place: PlaceArgs, profiles: &Profiles) -> Res
     mesh.placed(&Placement { size, ground }).map_err(|source| Failure::input(name, source))
 }
 
-/// What is odd about the size of a model whose file states no unit; nothing is guessed.
-fn odd_size(soup: &Soup) -> Option<String> {
-    let extent = soup.bounds().size().into_iter().fold(f64::NEG_INFINITY, f64::max);
+/// What is odd about the largest extent of a model whose file states no unit; nothing is guessed.
+pub(crate) fn odd_size(extent: f64) -> Option<String> {
     let hint = Unit::hint(extent)?;
     Some(format!(
         "its largest extent is {extent} mm; if that is odd, say in which unit it was made, as by --unit {hint}"
@@ -108,6 +109,7 @@ pub(crate) fn settings(bead: &BeadArgs, profiles: &Profiles) -> Result<Settings,
     let (width, height) = known.map_or((bead.width, None), |(width, height)| (Some(width), height));
     let mut settings = width.map_or_else(Settings::default, Settings::for_width);
     settings.walls = bead.walls;
+    settings.surface = bead.surface;
     if let Some(height) = bead.layer_height.or(height) {
         settings.layer_height = height;
     }

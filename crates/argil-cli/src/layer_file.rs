@@ -1,63 +1,82 @@
-//! Layers of polygons from another program, as JSON.
+//! Layers of polygons from another program, as SVG or JSON.
 
-use argil::curve::DVec2;
+use argil::Settings;
 use argil::mesh::{Mesh, Unit};
 use argil::slice::stacked;
-use clap::ValueEnum;
-use serde::Deserialize;
+use argil_layers::{Layers, is_json, json};
 
-use crate::args::UnitArg;
+use crate::args::PlaceArgs;
 use crate::failure::Failure;
+use crate::input::odd_size;
 
-/// The file as it is written.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct LayerFile {
-    /// Name of the unit, as `--unit` has it.
-    unit: Option<String>,
-    layer_height: f64,
-    /// Bottom first; closed contours of x and y each.
-    layers: Vec<Vec<Vec<[f64; 2]>>>,
-}
+/// Chords of curves lie beside them by at most this share of a bead.
+#[cfg(feature = "svg")]
+const CHORD_ERROR: f64 = 1e-3;
 
 /// Layers as a mesh that is cut into them.
-pub(crate) struct Layers {
+pub(crate) struct LayerFile {
     pub(crate) mesh: Mesh,
     /// Height of each, mm.
     pub(crate) layer_height: f64,
+    /// What is to be said about the file.
+    pub(crate) remarks: Vec<String>,
 }
 
-/// Whether bytes are such a file: JSON begins with a brace, and no format of meshes does.
+/// Whether bytes are such a file.
 pub(crate) fn is_layer_file(bytes: &[u8]) -> bool {
-    bytes.trim_ascii_start().starts_with(b"{")
-}
-
-/// Reads the layers, in the unit that is given here or in the file, or else in millimetres.
-pub(crate) fn read(name: &str, bytes: &[u8], unit: Option<UnitArg>) -> Result<Layers, Failure> {
-    let file: LayerFile = serde_json::from_slice(bytes).map_err(|source| Failure::layers(name, source))?;
-    let stated = match &file.unit {
-        Some(stated) => {
-            Some(UnitArg::from_str(stated, false).map_err(|why| Failure::layers(name, UnitError(why)))?)
-        }
-        None => None,
-    };
-    let factor = unit.or(stated).map_or(1.0, |unit| Unit::from(unit).millimetres());
-    let contour = |points: Vec<[f64; 2]>| points.into_iter().map(|p| DVec2::from(p) * factor).collect();
-    let layer = |contours: Vec<Vec<[f64; 2]>>| contours.into_iter().map(contour).collect();
-    let layers: Vec<Vec<Vec<DVec2>>> = file.layers.into_iter().map(layer).collect();
-    let layer_height = file.layer_height * factor;
-    let mesh = stacked(&layers, layer_height).map_err(|source| Failure::layers(name, source))?;
-    Ok(Layers { mesh, layer_height })
-}
-
-/// A unit that is none.
-#[derive(Debug)]
-struct UnitError(String);
-
-impl std::fmt::Display for UnitError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "unit: {}", self.0)
+    #[cfg(feature = "svg")]
+    if argil_layers::is_svg(bytes) {
+        return true;
     }
+    is_json(bytes)
 }
 
-impl std::error::Error for UnitError {}
+/// Reads the layers, in the unit that is given here or in the file, or else in millimetres. Where the file does not say how high its
+/// layers are, they are as high as the plan's once they have their size.
+pub(crate) fn read(
+    name: &str,
+    bytes: &[u8],
+    place: PlaceArgs,
+    settings: &Settings,
+) -> Result<LayerFile, Failure> {
+    let unit = place.unit.map(Unit::from);
+    let found = layers(bytes, unit, place, settings).map_err(|source| Failure::layers(name, source))?;
+    let mut remarks = found.remarks.clone();
+    if !found.has_unit && place.scale.is_none() && place.height.is_none() {
+        remarks.extend(odd_size(found.extent()));
+    }
+    let layer_height = found.layer_height.unwrap_or_else(|| {
+        remarks.push(format!(
+            "it does not say how high its layers are: {} mm is taken, the height of the plan's",
+            settings.layer_height
+        ));
+        settings.layer_height
+            / (place.shrinkage.unwrap_or_default().factors()[2] * place.scale.unwrap_or(1.0))
+    });
+    let mesh = stacked(&found.layers, layer_height).map_err(|source| Failure::layers(name, source))?;
+    Ok(LayerFile { mesh, layer_height, remarks })
+}
+
+#[cfg(feature = "svg")]
+fn layers(
+    bytes: &[u8],
+    unit: Option<Unit>,
+    place: PlaceArgs,
+    settings: &Settings,
+) -> Result<Layers, argil_layers::LayersError> {
+    if !argil_layers::is_svg(bytes) {
+        return json(bytes, unit);
+    }
+    let chord_error = CHORD_ERROR * settings.width / place.scale.unwrap_or(1.0);
+    argil_layers::svg(bytes, &argil_layers::SvgSettings { unit, chord_error })
+}
+
+#[cfg(not(feature = "svg"))]
+fn layers(
+    bytes: &[u8],
+    unit: Option<Unit>,
+    _: PlaceArgs,
+    _: &Settings,
+) -> Result<Layers, argil_layers::LayersError> {
+    json(bytes, unit)
+}

@@ -1,10 +1,11 @@
 //! How a plan is written for its machine.
 
-use std::fs;
 use std::path::Path;
+use std::{fmt, fs};
 
 use argil::Settings;
 use argil::gcode::{Extrusion, Flavour, GcodeSettings, RoleNames};
+use argil::mesh::Mesh;
 use argil::strand::{BeadShape, Strand};
 use argil_preview::{ViewStyle, overview_svg, png, thumbnail};
 use argil_printers::{Bead, Fact, Printer, render};
@@ -54,6 +55,7 @@ pub(crate) fn gcode_settings(
         first_layer_feed: first_layer_feed.unwrap_or(usual.first_layer_feed),
         approach_feed: machine.travel_feed.or(of(|p| &p.travel_feed)).unwrap_or(usual.approach_feed),
         arc_tolerance: machine.arcs,
+        wipe: machine.wipe,
         line_numbers: machine.line_numbers,
         names: match machine.viewer {
             Viewer::PrusaSlicer => RoleNames::prusa_slicer(),
@@ -194,8 +196,7 @@ pub(crate) fn remarks(profiles: &Profiles, job: &Job<'_>, strand: &Strand) -> Ve
         }
     }
     remarks.extend(unknown_flow(profiles, job));
-    let advice = "; --place bed centres it, --scale makes it smaller";
-    remarks.extend(misfit(profiles, job, strand).map(|remark| remark + advice));
+    remarks.extend(misfit(profiles, job, strand));
     remarks
 }
 
@@ -209,26 +210,58 @@ pub(crate) fn unknown_flow(profiles: &Profiles, job: &Job<'_>) -> Option<String>
     Some(format!("mm3_per_e of {name} is unknown ({why}): 2.405 is taken; set it by --mm3-per-e"))
 }
 
-/// A warning where the strand reaches beyond its printer.
+/// A warning where a strand reaches beyond its printer, and is written all the same.
 pub(crate) fn misfit(profiles: &Profiles, job: &Job<'_>, strand: &Strand) -> Option<String> {
-    let (name, printer) = (job.bead.printer.as_ref()?, profiles.printer.as_ref()?);
-    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    for layer in strand.layers() {
-        let half = layer.width / 2.0;
-        for to in layer.moves.iter().map(|step| step.to) {
-            for (axis, (value, half)) in [(to.x, half), (to.y, half), (layer.z, 0.0)].into_iter().enumerate()
-            {
-                low[axis] = low[axis].min(value - half);
-                high[axis] = high[axis].max(value + half);
-            }
-        }
-    }
-    (printer.reaches(low, high) == Some(false)).then(|| {
-        format!(
-            "warning: the print reaches from ({:.1}, {:.1}) to ({:.1}, {:.1}) and {:.1} mm up, beyond {name}",
+    let (name, beyond) = (job.bead.printer.as_ref()?, strand_beyond(profiles, strand)?);
+    Some(format!("warning: the print reaches {beyond}, beyond {name}"))
+}
+
+/// The box of a print or a model that its printer does not reach.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Beyond {
+    low: [f64; 3],
+    high: [f64; 3],
+}
+
+impl fmt::Display for Beyond {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { low, high } = self;
+        write!(
+            f,
+            "from ({:.1}, {:.1}) to ({:.1}, {:.1}) and {:.1} mm up",
             low[0], low[1], high[0], high[1], high[2]
         )
-    })
+    }
+}
+
+/// The box of a strand, if the printer does not reach all of its beads; `None` also where it is not known what it reaches.
+pub(crate) fn strand_beyond(profiles: &Profiles, strand: &Strand) -> Option<Beyond> {
+    let beads = strand.layers().iter().flat_map(|layer| {
+        let (half, z) = (layer.width / 2.0, layer.z);
+        layer.moves.iter().map(move |step| {
+            ([step.to.x - half, step.to.y - half, z], [step.to.x + half, step.to.y + half, z])
+        })
+    });
+    beyond(profiles, beads)
+}
+
+/// The same of a model, which is as wide as its beads will be, without their support.
+pub(crate) fn model_beyond(profiles: &Profiles, mesh: &Mesh) -> Option<Beyond> {
+    beyond(profiles, mesh.vertices().iter().map(|&vertex| (vertex, vertex)))
+}
+
+fn beyond(profiles: &Profiles, boxes: impl Iterator<Item = ([f64; 3], [f64; 3])>) -> Option<Beyond> {
+    let printer = profiles.printer.as_ref()?;
+    let mut all = Beyond { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
+    let mut reaches = true;
+    for (low, high) in boxes {
+        reaches &= printer.reaches(low, high)?;
+        for axis in 0..3 {
+            all.low[axis] = all.low[axis].min(low[axis]);
+            all.high[axis] = all.high[axis].max(high[axis]);
+        }
+    }
+    (!reaches).then_some(all)
 }
 
 /// Whether the printer takes a table of poses in place of g-code.

@@ -41,6 +41,9 @@ pub(crate) struct MachineArgs {
     /// Write arcs (G2, G3) that are nowhere farther from the plan than this, in mm.
     #[arg(long, value_name = "MM")]
     pub(crate) arcs: Option<f64>,
+    /// After the strand, go on along its uppermost cycle without paste for so far, in mm, before the nozzle leaves.
+    #[arg(long, value_name = "MM", default_value_t = 0.0, allow_negative_numbers = true)]
+    pub(crate) wipe: f64,
     /// Give every line a number and a checksum.
     #[arg(long)]
     pub(crate) line_numbers: bool,

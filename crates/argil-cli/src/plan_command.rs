@@ -6,21 +6,22 @@ use std::process::ExitCode;
 use std::thread;
 
 use argil::gcode::{Extrusion, GcodeError, GcodeSettings, Poses, write_gcode};
-use argil::mesh::{Mesh, Repairs};
-use argil::{Plan, PlanError, Planner, Settings, literal};
+use argil::mesh::{Mesh, Repairs, Soup};
+use argil::{Document, Plan, PlanError, Planner, Settings, Skirt, literal};
 use argil_audit::Report;
 use argil_preview::{SvgStyle, ViewStyle, layer_svg, overview_svg, png};
 
-use crate::args::PlanArgs;
+use crate::args::{Pattern, PlanArgs};
 use crate::audit_command::measure;
 use crate::cleaning_page::cleaning_page;
 use crate::closed_slices::ClosedSlices;
 use crate::failure::{FINDINGS, Failure};
 use crate::input::Model;
+use crate::machine::Beyond;
 use crate::preview_page::preview_page;
 use crate::profiles::Profiles;
 use crate::progress::{PlanBar, Waiting};
-use crate::report::{PlanReport, cleaning, is_finding, summary};
+use crate::report::{PlanReport, cleaning, is_finding, skirt_remark, summary};
 use crate::{input, machine, output};
 
 /// Longest side of the overview picture, pixels.
@@ -29,22 +30,33 @@ const PICTURE: u32 = 1600;
 /// Plans a model and writes everything that was asked for.
 pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
     let profiles = Profiles::of(&args.bead)?;
-    let settings = Settings { floor: args.floor, skin: args.skin, ..input::settings(&args.bead, &profiles)? };
+    let skirt = args.skirt.map(|turns| Skirt { turns, distance: args.skirt_distance, bed: profiles.bed() });
+    let settings = Settings {
+        floor: args.floor,
+        skin: args.skin,
+        spiral: args.spiral,
+        skirt,
+        spirals: args.fill_pattern == Pattern::Spirals,
+        infill: args.infill.unwrap_or_default(),
+        ..input::settings(&args.bead, &profiles)?
+    };
     settings.check().map_err(Failure::option)?;
     let mut written = machine::gcode_settings(&args.job(), &settings, &profiles)?;
-    let files = [&args.report, &args.strand, &args.png, &args.preview, &args.cleaning, &args.poses]
-        .map(Option::as_ref);
+    let files =
+        [&args.repaired, &args.report, &args.strand, &args.png, &args.preview, &args.cleaning, &args.poses]
+            .map(Option::as_ref);
     files.into_iter().chain([Some(&args.output)]).flatten().try_for_each(|path| output::check(path))?;
-    let Model { mesh, repairs, remarks } =
-        input::model(&args.model, args.place, &profiles, settings.layer_height)?;
+    let Model { mesh, repairs, remarks } = input::model(&args.model, args.place, &profiles, &settings)?;
     if args.strict {
         refuse_defects(&args.model, &repairs)?;
     }
+    fits(args, "model", machine::model_beyond(&profiles, &mesh))?;
     remarks.iter().for_each(|remark| eprintln!("note: {}: {remark}", args.model));
     repairs.to_string().lines().for_each(|line| eprintln!("repair: {}: {line}", args.model));
-    let plan =
-        plan(&mesh, &settings, args)?.map_err(|source| Failure::Plan { name: args.model.clone(), source })?;
+    let (plan, repaired) = plan(&mesh, &settings, args)?;
+    let plan = plan.map_err(|source| Failure::Plan { name: args.model.clone(), source })?;
 
+    fits(args, "print", machine::strand_beyond(&profiles, &plan.strand))?;
     machine::complete(&mut written, &args.job(), &plan.strand)?;
     let gcode = gcode(&plan, &written)?;
     let audit = audited_and_drawn(args, &plan, &audited(&plan, &written, &gcode)?, &mesh, &settings)?;
@@ -53,6 +65,9 @@ pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
         output::write(&args.output, poses()?.as_bytes())?;
     } else {
         output::write(&args.output, gcode.as_bytes())?;
+    }
+    if let Some((path, repaired)) = args.repaired.as_ref().zip(repaired) {
+        output::write(path, &repaired.to_stl())?;
     }
     if let Some(path) = &args.poses {
         output::write(path, poses()?.as_bytes())?;
@@ -72,8 +87,19 @@ pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
         output::write(path, &json(&PlanReport::new(&args.model, asked, &repairs, &plan, audit.as_ref()))?)?;
     }
 
+    skirt_remark(&settings, &plan).iter().for_each(|remark| eprintln!("note: {remark}"));
     machine::remarks(&profiles, &args.job(), &plan.strand).iter().for_each(|remark| eprintln!("{remark}"));
     Ok(verdict(args, &plan, audit.as_ref()))
+}
+
+/// Refuses what reaches beyond the printer, unless that is wanted.
+fn fits(args: &PlanArgs, what: &'static str, beyond: Option<Beyond>) -> Result<(), Failure> {
+    match (beyond, &args.bead.printer) {
+        (Some(beyond), Some(printer)) if !args.beyond_volume => {
+            Err(Failure::Beyond { what, printer: printer.clone(), beyond })
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Refuses a model that had to be repaired, by its worst defect.
@@ -122,15 +148,20 @@ fn audited<'t>(plan: &Plan, written: &GcodeSettings, text: &'t str) -> Result<Co
     gcode(plan, &with_e).map(Cow::Owned)
 }
 
-/// The plan, or why there is none; fails by itself only if no threads can be had.
-fn plan(mesh: &Mesh, settings: &Settings, args: &PlanArgs) -> Result<Result<Plan, PlanError>, Failure> {
+/// A plan, or why there is none, and the outlines that were planned, if they are wanted.
+type Planned = (Result<Plan, PlanError>, Option<Soup>);
+
+/// Plans; fails by itself only if no threads can be had.
+fn plan(mesh: &Mesh, settings: &Settings, args: &PlanArgs) -> Result<Planned, Failure> {
     let bar = PlanBar::new(args.quiet);
     let work = || {
         let mut follow = |progress| bar.follow(progress);
         if args.paper_exact {
-            refusing_holes(literal::planner(), args.strict).plan_observed(mesh, settings, &mut follow)
+            let mut planner = refusing_holes(literal::planner(), args);
+            (planner.plan_observed(mesh, settings, &mut follow), planner.slice.kept)
         } else {
-            refusing_holes(Planner::default(), args.strict).plan_observed(mesh, settings, &mut follow)
+            let mut planner = refusing_holes(Planner::default(), args);
+            (planner.plan_observed(mesh, settings, &mut follow), planner.slice.kept)
         }
     };
     let plan = with_threads(usize::from(args.threads), work)?;
@@ -141,10 +172,11 @@ fn plan(mesh: &Mesh, settings: &Settings, args: &PlanArgs) -> Result<Result<Plan
 /// The same planner, which goes no further where an outline is open.
 fn refusing_holes<S, G, U, R, E, T, C>(
     planner: Planner<S, G, U, R, E, T, C>,
-    strict: bool,
+    args: &PlanArgs,
 ) -> Planner<ClosedSlices<S>, G, U, R, E, T, C> {
     let Planner { slice, safeguard, support, route, smooth, taut, seam, checked } = planner;
-    Planner { slice: ClosedSlices { slice, strict }, safeguard, support, route, smooth, taut, seam, checked }
+    let slice = ClosedSlices { slice, strict: args.strict, keeps: args.repaired.is_some(), kept: None };
+    Planner { slice, safeguard, support, route, smooth, taut, seam, checked }
 }
 
 /// Runs a piece of work that may spread over this many threads.
@@ -209,6 +241,6 @@ fn pictures(args: &PlanArgs, plan: &Plan) -> Result<(), Failure> {
 }
 
 fn json(value: &impl serde::Serialize) -> Result<Vec<u8>, Failure> {
-    serde_json::to_vec_pretty(value)
+    serde_json::to_vec_pretty(&Document(value))
         .map_err(|source| Failure::Output { what: "report", source: Box::new(source) })
 }

@@ -42,7 +42,7 @@ pub(crate) fn short_name(model: &str) -> &str {
 fn facts(settings: &Settings, plan: &Plan, audit: Option<&Report>) -> Vec<(String, String)> {
     let strand = &plan.strand;
     let model = strand.length_of(Role::Wall) + strand.length_of(Role::Fill);
-    let beside = strand.length() - model;
+    let beside = strand.length() - model - strand.length_of(Role::Skirt);
     let verdict = match audit {
         None => "not made".to_owned(),
         Some(report) if report.is_sound() => "sound".to_owned(),
@@ -79,7 +79,7 @@ fn contact(place: &ContactPlace) -> PageMark {
 /// print, where what was found is within its limit.
 fn finding(finding: &argil_audit::Finding, sound: bool) -> PageMark {
     use FindingKind::{
-        BareOutline, Contact, Jump, ManyPaths, Retraction, SelfCrossing, SharpBend, SharpTurn,
+        BareFill, BareOutline, Contact, Jump, ManyPaths, Retraction, SelfCrossing, SharpBend, SharpTurn,
         UnreadableLine, WallCrossing,
     };
     let unit = match finding.kind {
@@ -91,7 +91,8 @@ fn finding(finding: &argil_audit::Finding, sound: bool) -> PageMark {
     };
     PageMark {
         kind: finding.kind.name().to_owned(),
-        fault: !sound && !matches!(finding.kind, BareOutline | Contact | Jump | SharpBend | SharpTurn),
+        fault: !sound
+            && !matches!(finding.kind, BareFill | BareOutline | Contact | Jump | SharpBend | SharpTurn),
         layer: usize::try_from(finding.layer).unwrap_or(0),
         last_layer: usize::try_from(finding.layer).unwrap_or(0),
         at: finding.at,
@@ -105,11 +106,14 @@ fn loss(loss: &Loss) -> PageMark {
     let (kind, measure, unit) = match *loss {
         Loss::OpenOutline { length, .. } => ("open outline left out", length, "mm"),
         Loss::ClosedGap { gap, .. } => ("gap in an outline closed", gap, "mm"),
+        Loss::Overlap { area, .. } => ("bodies that overlap made one", area, "mm²"),
+        Loss::InsideOut { area, .. } => ("surface inside out", area, "mm²"),
         Loss::Stray { length, .. } => ("open piece that bounds nothing left out", length, "mm"),
         Loss::Thin { area, .. } => ("thinner than a bead", area, "mm²"),
         Loss::Narrow { length, .. } => ("part thinner than a bead", length, "mm"),
         Loss::Vanished { area, .. } => ("too small to print", area, "mm²"),
         Loss::Branch { area, .. } => ("branch thinner than a bead", area, "mm²"),
+        Loss::OpenSheet { length, .. } => ("open section printed there and back", length, "mm"),
         Loss::Unsound { length, .. } => ("wall left out", length, "mm"),
         _ => ("other loss", 0.0, ""),
     };

@@ -3,7 +3,8 @@
 use std::fs;
 use std::path::Path;
 
-use argil_printers::{Material, Printer, ProfileError, materials, printers};
+use argil::Bed;
+use argil_printers::{Material, Printer, ProfileError, Volume, materials, printers};
 
 use crate::args::BeadArgs;
 use crate::failure::Failure;
@@ -31,6 +32,18 @@ impl Profiles {
         let of_material = self.material.as_ref().map(|m| (m.width.value(), m.layer_height.value()));
         let pairs = [of_printer, of_material].into_iter().flatten();
         pairs.filter_map(|(width, height)| Some((*width?, height.copied()))).next()
+    }
+
+    /// The printer's bed, if it is known.
+    pub(crate) fn bed(&self) -> Option<Bed> {
+        let printer = self.printer.as_ref()?;
+        let ([mx, my], volume) = (printer.middle()?, printer.volume.value()?);
+        Some(match *volume {
+            Volume::Box { x, y, .. } => {
+                Bed::Rectangle { low: [mx - x / 2.0, my - y / 2.0], high: [mx + x / 2.0, my + y / 2.0] }
+            }
+            Volume::Round { diameter, .. } => Bed::Disc { middle: [mx, my], radius: diameter / 2.0 },
+        })
     }
 }
 

@@ -3,19 +3,15 @@
 use argil::mesh::Repairs;
 use argil::slice::Loss;
 use argil::strand::Role;
-use argil::{LayerReport, Plan, Settings};
+use argil::{Climb, InfillChoice, LayerReport, LevelCause, Plan, Settings, SkirtLaid};
 use argil_audit::{ContactCause, Report};
 use serde::Serialize;
 
 use crate::shrinkage::Shrinkage;
 
-/// Version of the JSON layout; it rises when a field changes its meaning or goes.
-const SCHEMA: u32 = 1;
-
 /// The report as it is written.
 #[derive(Serialize)]
 pub(crate) struct PlanReport<'a> {
-    schema: u32,
     program: &'static str,
     version: &'static str,
     model: &'a str,
@@ -28,10 +24,16 @@ pub(crate) struct PlanReport<'a> {
     strand_mm: f64,
     wall_mm: f64,
     fill_mm: f64,
+    infill_mm: f64,
     support_mm: f64,
     connection_mm: f64,
     seam_mm: f64,
+    skirt_mm: f64,
     volume_mm3: f64,
+    /// The skirt as it was laid.
+    skirt: Option<SkirtLaid>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    infill: Option<InfillChoice>,
     per_layer: &'a [LayerReport],
     losses: Vec<LossReport>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -85,7 +87,6 @@ impl<'a> PlanReport<'a> {
     ) -> Self {
         let strand = &plan.strand;
         Self {
-            schema: SCHEMA,
             program: "argil",
             version: env!("CARGO_PKG_VERSION"),
             model,
@@ -98,10 +99,14 @@ impl<'a> PlanReport<'a> {
             strand_mm: strand.length(),
             wall_mm: strand.length_of(Role::Wall),
             fill_mm: strand.length_of(Role::Fill),
+            infill_mm: infill_length(plan),
             support_mm: strand.length_of(Role::Support),
             connection_mm: strand.length_of(Role::Connection),
             seam_mm: strand.length_of(Role::Seam),
+            skirt_mm: strand.length_of(Role::Skirt),
             volume_mm3: strand.volume(),
+            skirt: plan.skirt,
+            infill: plan.infill,
             per_layer: &plan.layers,
             losses: plan.losses.iter().map(loss).collect(),
             audit,
@@ -114,10 +119,13 @@ fn loss(loss: &Loss) -> LossReport {
         Loss::OpenOutline { length, .. } => ("open outline, mm left out", length),
         Loss::ClosedGap { gap, .. } => ("gap in an outline closed, mm wide", gap),
         Loss::Stray { length, .. } => ("open piece that bounds nothing left out, mm", length),
+        Loss::Overlap { area, .. } => ("bodies that overlap made one, mm²", area),
+        Loss::InsideOut { area, .. } => ("surface inside out, mm²", area),
         Loss::Thin { area, .. } => ("thinner than a bead, mm²", area),
         Loss::Narrow { length, .. } => ("part thinner than a bead, mm of its middle line", length),
         Loss::Vanished { area, .. } => ("too small to print, mm²", area),
         Loss::Branch { area, .. } => ("part not reached by a bead, mm²", area),
+        Loss::OpenSheet { length, .. } => ("open section printed there and back, mm", length),
         Loss::Unsound { length, .. } => ("wall left out, mm", length),
         _ => ("other", 0.0),
     };
@@ -134,7 +142,7 @@ pub(crate) fn summary(plan: &Plan) -> String {
     let strand = &plan.strand;
     let fill = strand.length_of(Role::Fill);
     let model = strand.length_of(Role::Wall) + fill;
-    let rest = strand.length() - model;
+    let rest = strand.length() - model - strand.length_of(Role::Skirt);
     let mut text = format!(
         "{} layers in one strand of {:.2} m, {:.1} cm³ of paste, 0 transfers\n\
          model {:.2} m, beside the model {:.2} m (ratio {:.3})\n",
@@ -147,11 +155,29 @@ pub(crate) fn summary(plan: &Plan) -> String {
     );
     if fill > 0.0 {
         text.push_str(&format!("of the model, fill {:.2} m", fill / 1e3));
+        let sparse = infill_length(plan);
+        if sparse > 0.0 {
+            text.push_str(&format!(", {:.2} m of it infill", sparse / 1e3));
+        }
         let bare = plan.layers.iter().map(|layer| layer.widest_bare).fold(0.0, f64::max);
         if bare > 0.0 {
             text.push_str(&format!("; widest place in it without a bead {bare:.2} mm"));
         }
         text.push('\n');
+    }
+    if let Some(skirt) = plan.skirt {
+        text.push_str(&format!("skirt: {} turns, {:.2} m\n", skirt.turns, skirt.length / 1e3));
+    }
+    text.push_str(&climb(plan));
+    if let Some(InfillChoice { taken, with_mm, without_mm }) = plan.infill {
+        let told =
+            |length: Option<f64>| length.map_or("no plan".to_owned(), |mm| format!("{:.2} m", mm / 1e3));
+        let chosen = if taken { "infill" } else { "support from the walls" };
+        text.push_str(&format!(
+            "what holds the skins: {chosen}; with infill {}, without {}\n",
+            told(with_mm),
+            told(without_mm)
+        ));
     }
     for (kind, count, first) in losses(plan) {
         text.push_str(&format!(
@@ -171,6 +197,57 @@ pub(crate) fn summary(plan: &Plan) -> String {
         plan.times.total().as_secs_f64() * 1e3
     ));
     text
+}
+
+/// The most runs of level layers that the summary names for one reason.
+const RUNS_NAMED: usize = 6;
+
+/// How many layers of a spiral rise, and which lie level for what reason; nothing of other plans.
+fn climb(plan: &Plan) -> String {
+    if plan.layers.iter().all(|layer| layer.level_because.is_none()) {
+        return String::new();
+    }
+    let rising = plan.layers.iter().filter(|layer| layer.climb == Climb::Rising).count();
+    let mut text = format!("spiral: {rising} of {} layers rise", plan.layers.len());
+    for (cause, why) in [
+        (LevelCause::Bed, "on the bed"),
+        (LevelCause::Order, "in another order than the layer below"),
+        (LevelCause::Short, "too short to rise"),
+        (LevelCause::Few, "too few between level ones"),
+        (LevelCause::Rim, "the rim"),
+    ] {
+        let runs = plan.layers.chunk_by(|a, b| a.level_because == b.level_because && a.index + 1 == b.index);
+        let of_cause = runs.filter(|run| run.iter().all(|layer| layer.level_because == Some(cause)));
+        let named: Vec<String> = of_cause
+            .filter_map(|run| {
+                let (first, last) = (run.first()?.index, run.last()?.index);
+                Some(if first == last { first.to_string() } else { format!("{first} to {last}") })
+            })
+            .collect();
+        if !named.is_empty() {
+            let more = if named.len() > RUNS_NAMED { ", …" } else { "" };
+            let shown = named[..named.len().min(RUNS_NAMED)].join(", ");
+            text.push_str(&format!("; level {shown}{more}: {why}"));
+        }
+    }
+    text + "\n"
+}
+
+/// What is to be said where the skirt is not what was asked for.
+pub(crate) fn skirt_remark(settings: &Settings, plan: &Plan) -> Option<String> {
+    let asked = settings.skirt?;
+    let Some(laid) = plan.skirt else {
+        return Some("no skirt: it has no room on the bed, or no way from it to the part".to_owned());
+    };
+    let nearer = laid.distance < (asked.distance - 1e-9) * settings.width;
+    (laid.turns < asked.turns || nearer).then(|| {
+        format!("the bed has room for {} turns of skirt, {:.1} mm from the part", laid.turns, laid.distance)
+    })
+}
+
+/// Length of infill, mm.
+fn infill_length(plan: &Plan) -> f64 {
+    plan.layers.iter().map(|layer| layer.infill_length).sum()
 }
 
 /// What an audit says beside its verdict: how the strand follows itself, and what there is to clean.

@@ -207,15 +207,69 @@ fn layers_of_another_program_are_printed_as_they_are() {
             &[],
             "contour 0 of layer 0",
         ),
-        ("{\"unit\": \"ell\", \"layer_height\": 1, \"layers\": []}".to_owned(), &[], "unit: "),
         (
-            "{\"layer_height\": 1, \"layers\": [[[[0,1,2]]]]}".to_owned(),
+            "{\"unit\": \"ell\", \"layer_height\": 1, \"layers\": []}".to_owned(),
             &[],
-            "tower.json, read as layers in JSON",
+            "there is no unit `ell`",
         ),
+        ("{\"layer_height\": 1, \"layers\": [[[[0,1,2]]]]}".to_owned(), &[], "tower.json, read as layers"),
     ] {
         let (_, said) = planned(&folder, "tower.json", text.as_bytes(), extra, BAD_INPUT);
         assert!(said.contains(says), "no `{says}` in\n{said}");
+    }
+}
+
+#[test]
+fn a_drawing_is_printed_as_its_layers() {
+    let folder = folder("drawing");
+    // A tower of 6 layers with a hole: the same as JSON and as two kinds of SVG.
+    let (mut json, mut drawn, mut sliced) = (String::new(), String::new(), String::new());
+    for k in 0..6 {
+        let (low, high) = (f64::from(k) * 0.2, 24.0 - f64::from(k) * 0.2);
+        json += &format!(
+            "{}[[[{low},{low}],[{high},{low}],[{high},{high}],[{low},{high}]],[[8,8],[14,8],[14,16],[8,16]]]",
+            if k == 0 { "" } else { "," }
+        );
+        let [side, far] = [10.0 * (high - low), 240.0 - 10.0 * low - 10.0 * (high - low)];
+        drawn += &format!(
+            "<g><rect x=\"{}\" y=\"{far}\" width=\"{side}\" height=\"{side}\"/><rect x=\"80\" y=\"80\" width=\"60\" height=\"80\"/></g>",
+            10.0 * low
+        );
+        let [low_y, high_y] = [24.0 - low, 24.0 - high];
+        sliced += &format!(
+            "<g slic3r:z=\"{}\" slic3r:layer-height=\"1\"><path d=\"M {low} {low_y} {high} {low_y} {high} {high_y} {low} {high_y} z \
+             M 8 16 8 8 14 8 14 16 z\"/></g>",
+            k + 1
+        );
+    }
+    let json = format!("{{\"layer_height\": 1, \"layers\": [{json}]}}");
+    let drawn = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"24mm\" height=\"24mm\" viewBox=\"0 0 240 240\">{drawn}</svg>"
+    );
+    let sliced = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:slic3r=\"http://slic3r.org/namespaces/slic3r\" width=\"24\" height=\"24\">{sliced}</svg>"
+    );
+    let (moves, said) = planned(&folder, "tower.json", json.as_bytes(), &[], DONE);
+    assert!(said.contains("audit: sound"), "{said}");
+    let (same, said) = planned(&folder, "drawn.svg", drawn.as_bytes(), &[], DONE);
+    assert!(said.contains("it does not say how high its layers are: 1 mm is taken"), "{said}");
+    assert!(said.contains("6 layers in one strand") && said.contains("audit: sound"), "{said}");
+    assert_eq!(same, moves);
+    let (same, said) = planned(&folder, "sliced.svg", sliced.as_bytes(), &[], DONE);
+    assert!(!said.contains("note: sliced.svg"), "{said}");
+    assert_eq!(same, moves);
+    // Scaled, its layers are as high as the plan's all the same; in inches it is larger.
+    let (_, said) = planned(&folder, "drawn.svg", drawn.as_bytes(), &["--scale", "2"], DONE);
+    assert!(said.contains("6 layers in one strand"), "{said}");
+    for (text, extra, says) in [
+        (sliced.replace("layer-height=\"1\"", "layer-height=\"0.5\""), &[][..], "say --layer-height 0.5"),
+        (drawn.replace("<rect x=\"80\"", "<text x=\"80\""), &[], "layer 0, line 1: `text` is not read"),
+        (drawn.replace("<g>", "").replace("</g>", ""), &[], "belongs to no layer"),
+        ("<svg/>".to_owned(), &[], "it has no group"),
+        (drawn, &["--height", "12"], "say --layer-height 2"),
+    ] {
+        let (_, said) = planned(&folder, "bad.svg", text.as_bytes(), extra, BAD_INPUT);
+        assert!(said.contains("bad.svg") && said.contains(says), "no `{says}` in\n{said}");
     }
 }
 

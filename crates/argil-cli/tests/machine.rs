@@ -91,8 +91,17 @@ fn what_is_unknown_or_too_large_is_said() {
     assert!(said.contains("mm3_per_e of tronxy-moore-1 is unknown"), "{said}");
     assert!(said.contains("the bridge that stoneware bears is unknown"), "{said}");
     let options = ["--printer", "eazao-zero", "--place", "center"];
-    let (_, said) = ends(&folder, 0, &[&["plan", "-o", "out.gcode"], &QUICK[..], &options].concat());
-    assert!(said.contains("beyond eazao-zero") && said.contains("--place bed"), "{said}");
+    let plan = [&["plan", "-o", "beyond.gcode"], &QUICK[..], &options].concat();
+    let (_, said) = ends(&folder, 3, &plan);
+    assert!(said.contains("the model reaches from (") && said.contains("beyond eazao-zero"), "{said}");
+    assert!(said.contains("--place bed") && said.contains("--beyond-volume"), "{said}");
+    assert!(!folder.join("beyond.gcode").exists());
+    let (_, said) = ends(&folder, 0, &[&plan[..], &["--beyond-volume"]].concat());
+    assert!(
+        said.contains("warning: the print reaches from (") && said.contains("beyond eazao-zero"),
+        "{said}"
+    );
+    assert!(folder.join("beyond.gcode").exists());
 }
 
 #[test]

@@ -43,23 +43,109 @@ fn the_surface_of_every_library_is_the_one_written_down() {
     assert_eq!(kept, names, "one file a library");
 }
 
+/// The structures and enumerations that a library shows: the name, and what is written down of it.
+fn shown() -> Vec<(String, String)> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let files = fs::read_dir(root.join("docs/api")).unwrap().map(|entry| entry.unwrap().path());
+    let mut found = Vec::new();
+    for surface in files.map(|file| fs::read_to_string(file).unwrap()) {
+        let lines: Vec<&str> = surface.lines().filter(|line| !line.starts_with(' ')).collect();
+        for line in &lines {
+            let declared = line.split_once("pub struct ").or_else(|| line.split_once("pub enum "));
+            let Some((before, rest)) = declared else { continue };
+            let name: String = rest.chars().take_while(|c| c.is_alphanumeric()).collect();
+            // What is implemented by hand counts as what is derived.
+            let by_hand = lines.iter().filter_map(|line| line.split_once("impl")?.1.split_once(" for "));
+            let traits = by_hand.filter(|(_, of)| of.split('<').next() == Some(&name)).map(|(of, _)| of);
+            let traits = traits.map(|of| of.rsplit("::").next().unwrap_or(of));
+            let told = before.to_owned() + &traits.collect::<Vec<_>>().join(" ");
+            found.push((name, told));
+        }
+    }
+    assert!(found.len() > 100, "the surfaces were not found");
+    found
+}
+
+fn named(told: &str, word: &str) -> bool {
+    told.split(|c: char| !c.is_alphanumeric() && c != '_').any(|one| one == word)
+}
+
 #[test]
 fn what_a_program_keeps_can_go_to_another_thread() {
     let known: BTreeSet<&str> = threads::types()
         .into_iter()
         .map(|path| path.split('<').next().unwrap_or(path).rsplit("::").next().unwrap_or(path))
+        .chain(threads::BOUND)
         .collect();
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    for file in
-        ["argil", "argil-audit", "argil-curve", "argil-gcode", "argil-route", "argil-strand", "argil-tour"]
-    {
-        let surface = fs::read_to_string(root.join("docs/api").join(format!("{file}.txt"))).unwrap();
-        for line in surface.lines().filter(|line| !line.starts_with(' ')) {
-            let declared = line.split_once("pub struct ").or_else(|| line.split_once("pub enum "));
-            let Some((_, rest)) = declared else { continue };
-            let name = rest.split(|c: char| !c.is_alphanumeric()).next().unwrap();
-            assert!(known.contains(name), "{file}: {name} is not among the types that threads share");
-        }
+    for (name, _) in shown() {
+        assert!(known.contains(name.as_str()), "{name} is not among the types that threads share");
+    }
+}
+
+#[test]
+fn every_type_can_be_looked_at_and_copied_and_errors_may_grow() {
+    // An error of the rasteriser, kept as it came.
+    let uncopied = ["PreviewError"];
+    for (name, told) in shown() {
+        assert!(named(&told, "Debug"), "{name} cannot be printed");
+        assert!(named(&told, "Clone") || uncopied.contains(&name.as_str()), "{name} cannot be cloned");
+        let is_error = name.ends_with("Error") || name == "LayerFault";
+        assert!(!is_error || named(&told, "non_exhaustive"), "{name} cannot grow");
+        assert!(is_error || !named(&told, "Error"), "{name} is an error by another name");
+    }
+}
+
+/// What holds functions, memory for searches or an index, and what borrows such a thing: no plain values.
+const NO_VALUES: [&str; 20] = [
+    "DistanceLabels",
+    "Distances",
+    "Edges",
+    "ElasticCurve",
+    "ElasticSolver",
+    "Field",
+    "Gcode",
+    "LayerInput",
+    "Path",
+    "PathFinder",
+    "PathGraph",
+    "Planner",
+    "PointIndex",
+    "Poses",
+    "Router",
+    "SeenFrom",
+    "SegmentIndex",
+    "SlackPath",
+    "SplicedRouter",
+    "TourSolver",
+];
+
+/// Values that nobody keeps in a file: borrowed input, what is told in passing, what follows from other values, and
+/// distances, which may be infinite.
+const NOT_WRITTEN: [&str; 13] = [
+    "Amount",
+    "DistanceMatrix",
+    "EdgeTable",
+    "FreeSpace",
+    "ImlsField",
+    "MatrixMetric",
+    "Nodes",
+    "PointKind",
+    "Progress",
+    "Section",
+    "ShortestTours",
+    "TourDistances",
+    "Wall",
+];
+
+#[test]
+fn every_value_can_be_compared_and_kept_in_a_file() {
+    for (name, told) in shown() {
+        let is_error = named(&told, "Error");
+        let (is_value, is_stage) =
+            (!NO_VALUES.contains(&name.as_str()), told.contains("stages: ") || told.contains("literal: "));
+        assert_eq!(is_value || is_error, named(&told, "PartialEq") || name == "PreviewError", "{name}");
+        let is_kept = is_value && !is_error && !is_stage && !NOT_WRITTEN.contains(&name.as_str());
+        assert_eq!(is_kept, named(&told, "Serialize"), "{name}");
     }
 }
 

@@ -5,6 +5,7 @@ use glam::DVec2;
 
 /// A stretch of a segment, by arc length from the segment's start.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SegmentPart {
     /// Where the stretch begins, mm.
     pub from: f64,

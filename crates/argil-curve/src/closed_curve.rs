@@ -28,6 +28,8 @@ const MOST_SAMPLES: f64 = 16_777_216.0;
 /// # Ok::<(), argil_curve::CurveError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "Vec<DVec2>", into = "Vec<DVec2>"))]
 pub struct ClosedCurve {
     points: Vec<DVec2>,
     /// Arc length at each vertex and, last, of the whole curve.
@@ -36,6 +38,7 @@ pub struct ClosedCurve {
 
 /// A place on a closed curve, by segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct OnCurve {
     /// Index of the segment, which begins at the vertex of the same index.
     pub segment: usize,
@@ -45,6 +48,7 @@ pub struct OnCurve {
 
 /// The point of a closed curve that is nearest to some other point.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct NearestOnCurve {
     /// Index of the segment on which the point lies.
     pub segment: usize,
@@ -54,6 +58,20 @@ pub struct NearestOnCurve {
     pub point: DVec2,
     /// Its distance from the point that was asked about, mm.
     pub distance: f64,
+}
+
+impl TryFrom<Vec<DVec2>> for ClosedCurve {
+    type Error = CurveError;
+
+    fn try_from(points: Vec<DVec2>) -> Result<Self, CurveError> {
+        Self::new(points)
+    }
+}
+
+impl From<ClosedCurve> for Vec<DVec2> {
+    fn from(curve: ClosedCurve) -> Self {
+        curve.points
+    }
 }
 
 impl ClosedCurve {

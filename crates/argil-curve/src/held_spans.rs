@@ -8,7 +8,17 @@ use crate::{ClosedCurve, SegmentIndex};
 const JOIN: f64 = 1e-9;
 
 /// A stretch of a closed curve by arc length; it may run over the end of the curve into its beginning.
+///
+/// # Example
+/// ```
+/// use argil_curve::ArcSpan;
+/// // On a curve of 10 mm: over its end, into its beginning.
+/// let span = ArcSpan { start: 9.0, length: 2.0 };
+/// assert_eq!(span.end(), 11.0);
+/// assert!(span.contains(0.5, 10.0) && !span.contains(1.5, 10.0));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ArcSpan {
     /// Arc length where the stretch begins, from 0 up to but excluding the length of the curve, mm.
     pub start: f64,
@@ -86,14 +96,21 @@ pub fn held_spans(curve: &ClosedCurve, index: &SegmentIndex, across: f64) -> Vec
         }
     }
     join_round(&mut runs, length, join);
-    runs.iter()
-        .map(|&(from, to)| ArcSpan { start: if from < length { from } else { 0.0 }, length: to - from })
-        .collect()
+    runs.iter().map(|&(from, to)| ArcSpan { start: from, length: to - from }).collect()
 }
 
-/// Joins the last run with the first where they meet over the beginning of the curve.
+/// Joins the last run with the first where they meet over the beginning of the curve; all begin before the end then.
 fn join_round(runs: &mut Vec<(f64, f64)>, length: f64, join: f64) {
     let (Some(&first), Some(&last)) = (runs.first(), runs.last()) else { return };
+    if last.0 >= length {
+        // What is held at the very end alone is held at the beginning, and so comes first.
+        runs.pop();
+        match runs.first_mut() {
+            Some(first) if first.0 <= join => first.0 = 0.0,
+            _ => runs.insert(0, (0.0, 0.0)),
+        }
+        return;
+    }
     if first.0 > join || last.1 < length - join {
         return;
     }
@@ -152,6 +169,20 @@ mod tests {
         assert_eq!(held, [ArcSpan { start: 15.0, length: 2.0 }]);
         assert_eq!(gaps(16.0, &held), [ArcSpan { start: 1.0, length: 14.0 }]);
         assert!(held[0].contains(0.5, 16.0) && held[0].contains(15.5, 16.0) && !held[0].contains(8.0, 16.0));
+    }
+
+    #[test]
+    fn what_is_held_at_the_very_end_comes_first() {
+        let rounds = |mut runs: Vec<(f64, f64)>| {
+            join_round(&mut runs, 16.0, JOIN);
+            runs
+        };
+        assert_eq!(rounds(vec![(16.0, 16.0)]), [(0.0, 0.0)]);
+        assert_eq!(rounds(vec![(4.0, 5.0), (16.0, 16.0)]), [(0.0, 0.0), (4.0, 5.0)]);
+        assert_eq!(rounds(vec![(0.0, 1.0), (4.0, 5.0), (16.0, 16.0)]), [(0.0, 1.0), (4.0, 5.0)]);
+        assert_eq!(rounds(vec![(0.0, 1.0), (4.0, 5.0), (15.0, 16.0)]), [(4.0, 5.0), (15.0, 17.0)]);
+        let spans = [ArcSpan { start: 0.0, length: 0.0 }, ArcSpan { start: 4.0, length: 1.0 }];
+        assert_eq!(gaps(16.0, &spans).iter().map(|gap| gap.length).sum::<f64>(), 15.0);
     }
 
     #[test]

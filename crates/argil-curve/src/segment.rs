@@ -13,6 +13,7 @@ use robust::{Coord, orient2d};
 /// assert_eq!((nearest.t, nearest.distance), (0.25, 3.0));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Segment {
     /// Where the segment begins, mm.
     pub start: DVec2,
@@ -22,6 +23,7 @@ pub struct Segment {
 
 /// The point of a segment that is nearest to some other point.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct NearestOnSegment {
     /// Share of the segment's length that lies before the point, 0 at the start and 1 at the end.
     pub t: f64,

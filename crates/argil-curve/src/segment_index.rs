@@ -49,6 +49,7 @@ struct Item {
 
 /// The segment of an index that is nearest to some point.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct NearestSegment {
     /// Index of the segment in [`SegmentIndex::segments`].
     pub index: usize,

@@ -21,6 +21,7 @@ const MOST_MET: f64 = 48.0;
 
 /// A place where a closed polyline crosses itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Crossing {
     /// The lower index: of a segment (named by the vertex at which it begins) or of a vertex, by `kind`.
     pub first: usize,
@@ -34,6 +35,8 @@ pub struct Crossing {
 
 /// How a polyline crosses itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum CrossingKind {
     /// Two segments cross inside both of them.
     Proper,

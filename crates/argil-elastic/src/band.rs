@@ -7,7 +7,7 @@ use glam::DMat2;
 /// A row is its last `width` entries up to the diagonal. Rows of zeros stand before the first, so that all rows are
 /// alike, and with the width known to the compiler every row is straight-line code: a tenth of the instructions of a
 /// sparse solver, whose pattern has to be looked up.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Band {
     width: usize,
     size: usize,

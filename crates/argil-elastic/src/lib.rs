@@ -1,4 +1,10 @@
 #![doc = include_str!("../README.md")]
+//!
+//! # In a picture
+//!
+#![doc = include_str!("../pictures/relaxed.svg")]
+//!
+//! A path with the corners that a graph gives it, dashed, and what it relaxes to. Two of its points hold something, and stay in their discs.
 #![forbid(unsafe_code)]
 
 mod band;

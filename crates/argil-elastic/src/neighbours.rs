@@ -31,7 +31,7 @@ pub(crate) struct Opposite {
 /// The lists hold all pairs that can come within reach while no vertex has moved by more than the skin since they
 /// were made. Nearest strands and crossings are then looked up at every trial step without touching the grid, and
 /// since steps shrink as the relaxation settles, the lists are made two or three times and not twenty.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Neighbours {
     /// Where the vertices were when the lists were made, in w.
     reference: Vec<DVec2>,
@@ -45,7 +45,7 @@ pub(crate) struct Neighbours {
 }
 
 /// A list for each of many owners, in one piece of memory.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Lists<T> {
     starts: Vec<u32>,
     items: Vec<T>,
@@ -173,7 +173,7 @@ pub(crate) fn boxes_within(a: DVec2, b: DVec2, c: DVec2, d: DVec2, radius: f64) 
 }
 
 /// Uniform buckets over the bounding box of the path; every edge is in all buckets that it may pass.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 struct Grid {
     low: DVec2,
     cell: f64,

@@ -46,7 +46,21 @@ pub(crate) enum Reading {
 /// Relaxes paths one after the other in the same memory.
 ///
 /// [`relax`](crate::relax) does the same with fresh memory. Results do not depend on what was relaxed before.
-#[derive(Debug, Default)]
+///
+/// # Example
+/// ```
+/// use argil_elastic::{DVec2, ElasticOptions, ElasticSolver, Path};
+/// let mut solver = ElasticSolver::new();
+/// for height in [2.0, 3.0] {
+///     // A wall, and a strand with a corner that closes the path.
+///     let points = [(0.0, 0.0), (0.0, -5.0), (6.0, -5.0), (6.0, 0.0), (3.0, height)].map(DVec2::from);
+///     let path = Path { points: &points, fixed: &[true, true, true, true, false], carriers: &[], clear_of: None, felt: &[] };
+///     let relaxed = solver.relax(&path, &ElasticOptions::for_width(1.5))?;
+///     assert!(relaxed.points[4].y < height);
+/// }
+/// # Ok::<(), argil_elastic::ElasticError>(())
+/// ```
+#[derive(Clone, Debug, Default)]
 pub struct ElasticSolver {
     rod: Rod,
     neighbours: Neighbours,
@@ -206,7 +220,7 @@ enum Verdict {
 }
 
 /// What is known about the step of every free vertex, by its number.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 struct Steps {
     /// Newton step, in w.
     step: Vec<DVec2>,

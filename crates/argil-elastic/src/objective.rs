@@ -67,7 +67,7 @@ struct Contact {
 }
 
 /// One position of the path with everything that was looked up for it.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct State {
     /// In mm: what is returned, and what crossings and envelopes are judged by.
     pub(crate) points: Vec<DVec2>,

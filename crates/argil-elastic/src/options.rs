@@ -9,6 +9,8 @@ use crate::ElasticError;
 /// concrete bead by a factor of 400 (Eq. 2 grows like a length, Eq. 3 like an inverse length, Eq. 6 not at all).
 /// Divided by the powers of w noted at each field, a print scaled by any factor relaxes to the scaled result.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct ElasticOptions {
     /// Bead width w in mm, the unit of everything below. 1.5 mm in the paper.
     pub width: f64,

@@ -8,6 +8,7 @@ use crate::ElasticError;
 ///
 /// A vertex may appear in several carriers; it then stays inside the intersection of their discs.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Carrier {
     /// Index into [`Path::points`].
     pub vertex: usize,
@@ -81,6 +82,8 @@ impl Path<'_> {
 
 /// Why the relaxation ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Stop {
     /// The last Newton step was shorter than the tolerance.
@@ -93,6 +96,8 @@ pub enum Stop {
 
 /// The relaxed path.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Relaxed {
     /// As many points as went in, in mm; fixed ones are the very same bits.
     pub points: Vec<DVec2>,

@@ -14,7 +14,7 @@ const SHORTEST_EDGE: f64 = 1e-3 / 1.5;
 pub(crate) const FIXED: u32 = u32::MAX;
 
 /// A closed chain of vertices and edges; edge k runs from vertex k to vertex k + 1. Lengths in w.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Rod {
     /// Free vertices run by run, so that neighbours on the path are neighbours in the linear system.
     pub(crate) free: Vec<u32>,

@@ -10,7 +10,7 @@ use crate::rod::Rod;
 /// Runs stand one after the other, so that a vertex is coupled with the two before it. If the whole cycle is free,
 /// its first vertices are coupled with its last: it is then folded, one vertex from the one side after one from
 /// the other, and the band is twice as wide.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct NormalSystem {
     /// Where each free vertex stands in a folded system; empty if it is not folded.
     folded: Vec<usize>,

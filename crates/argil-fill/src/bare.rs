@@ -9,6 +9,7 @@ use crate::rings::Core;
 
 /// A disc inside of the region that no bead touches.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct BareDisc {
     /// Its middle, mm.
     pub centre: DVec2,

@@ -4,6 +4,8 @@ use argil_curve::{DVec2, Segment};
 
 /// What a stretch of a fill is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Bead {
     /// Part of this wall, counted from the outline.
     Wall(usize),
@@ -20,7 +22,23 @@ impl Bead {
 }
 
 /// A closed curve of beads that does not cross itself.
+///
+/// # Example
+/// ```
+/// use argil_fill::{Bead, FillCurve, FillOptions, Joint, fill};
+/// use geo_types::Rect;
+/// let tile = Rect::new((0.0, 0.0), (12.0, 9.0)).to_polygon().into();
+/// let filled = fill(&tile, &[], &FillOptions::for_width(1.5), &[])?;
+/// let curve: &FillCurve = &filled.curves[0];
+/// assert!((curve.length() - filled.figures.length).abs() < 1e-9);
+/// assert!(curve.beads.contains(&Bead::Joint));
+/// // Each of the joints lies in the tile.
+/// let inside = |joint: &Joint| (0.0..12.0).contains(&joint.middle().x) && (0.0..9.0).contains(&joint.middle().y);
+/// assert!(filled.joints.iter().all(inside));
+/// # Ok::<(), argil_fill::FillError>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FillCurve {
     /// The vertices in mm, without repeating the first at the end.
     pub points: Vec<DVec2>,

@@ -1,6 +1,6 @@
 //! Mending: the nearest strand makes a detour into what would stay bare.
 
-use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex};
+use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex, on_grid};
 
 use crate::bare::BareDisc;
 use crate::curve::{Bead, FillCurve};
@@ -130,7 +130,7 @@ impl Strand {
             for (number, segment) in bases.into_iter().flatten() {
                 let Some(curve) = &self.closed[number] else { continue };
                 let near = curve.on_segment(segment, disc.centre);
-                let on_grid = |p: DVec2| (p / self.grid).round() * self.grid;
+                let on_grid = |p: DVec2| on_grid(p, self.grid);
                 let tip = on_grid(near.point.lerp(disc.centre, towards));
                 let is_wall = matches!(curves[number].beads[segment], Bead::Wall(_));
                 for half in HALVES.map(|half| half * self.width) {

@@ -13,11 +13,14 @@ use crate::merge::merge_within;
 use crate::offset::{dilation, rings};
 use crate::ring::{Ring, perimeter};
 use crate::rings::{rings_of, sides_of};
+use crate::spiral::with_spirals;
 use crate::tree::Fence;
-use crate::{FillError, FillOptions};
+use crate::{FillError, FillOptions, FillPattern};
 
 /// A filled region.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Fill {
     /// The curves: one for each part of the region that joints can reach from the others. None crosses itself or another.
     pub curves: Vec<FillCurve>,
@@ -31,8 +34,10 @@ pub struct Fill {
 
 /// What a fill has reached. Areas are counted on a grid of about a third of a bead.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Figures {
-    /// Rings that were merged, those that were given included.
+    /// Rings that were merged, those that were given included; a spiral counts as one.
     pub rings: usize,
     /// Detours into places that would have stayed bare.
     pub detours: usize,
@@ -91,7 +96,10 @@ pub fn fill(
     // A joint from part to part of the region would lay clay outside.
     let edges = region.iter().flat_map(sides_of).collect();
     let fence = Fence { index: SegmentIndex::new(edges, w), first: beside.len() };
-    let own = rings_of(&region, &fence.index, options)?;
+    let mut own = rings_of(&region, &fence.index, options)?;
+    if options.pattern == FillPattern::Spirals {
+        own.rings = with_spirals(own.rings, w, options.grid);
+    }
     let mut all = beside.to_vec();
     all.extend(own.rings);
     let mut merged = merge_within(&all, options, avoid, Some(&fence))?;

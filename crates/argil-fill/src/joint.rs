@@ -6,6 +6,7 @@ use crate::ring::{Place, Track};
 
 /// Two strands that join two rings; the stretch between them is taken out of either.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Joint {
     /// The rings that it joins, as indices into the rings that were merged.
     pub rings: [usize; 2],

@@ -10,6 +10,7 @@ use crate::{FillCurve, FillError, FillOptions};
 
 /// Curves and the joints that made them.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Merged {
     /// The curves, each with one role a segment.
     pub curves: Vec<FillCurve>,
@@ -36,8 +37,7 @@ pub struct Merged {
 ///
 /// # Example
 /// ```
-/// use argil_curve::DVec2;
-/// use argil_fill::{FillOptions, Ring, merge};
+/// use argil_fill::{DVec2, FillOptions, Ring, merge};
 /// let square = |half: f64| [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|c| half * DVec2::from(c)).to_vec();
 /// let walls = [Ring { points: square(9.25), wall: Some(0) }, Ring { points: square(7.75), wall: Some(1) }];
 /// let merged = merge(&walls, &FillOptions::for_width(1.5), &[])?;

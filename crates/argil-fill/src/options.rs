@@ -2,8 +2,23 @@
 
 use crate::FillError;
 
+/// How rings become one curve.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
+pub enum FillPattern {
+    /// Ring by ring, each joined to a neighbour by two legs.
+    #[default]
+    Rings,
+    /// Rings that lie in each other without a branch as one double spiral (a Fermat spiral), which turns back only at its two ends; the others
+    /// ring by ring. A disc has a fifth of the sharp turns, and somewhat more stays bare at the ends of the spiral.
+    Spirals,
+}
+
 /// How a region is filled. Lengths are in mm where they say so, else in w, the bead width.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct FillOptions {
     /// Bead width w, mm. Rings are one width apart.
     pub width: f64,
@@ -27,6 +42,8 @@ pub struct FillOptions {
     /// the figures then say what is laid. From 0.75 to 1.33 a strip of three beads that has four lanes, none of them a wall, has hardly
     /// more clay than room. `None` for one width everywhere.
     pub flow: Option<[f64; 2]>,
+    /// How rings become one curve.
+    pub pattern: FillPattern,
     /// Step of the output coordinates, mm.
     pub grid: f64,
 }
@@ -47,6 +64,7 @@ impl FillOptions {
             bare: 0.33,
             mending: 3,
             flow: None,
+            pattern: FillPattern::Rings,
             grid: 1e-4,
         }
     }

@@ -1,6 +1,6 @@
 //! Rings: closed paths one bead apart, before they are joined.
 
-use argil_curve::{ClosedCurve, DVec2, SegmentIndex};
+use argil_curve::{ClosedCurve, DVec2, SegmentIndex, on_grid};
 use geo::Simplify;
 use geo_types::{Coord, LineString, Polygon};
 
@@ -9,6 +9,7 @@ use crate::offset::{ring_points, rings};
 
 /// A closed path of beads: a wall, or a ring of a fill.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Ring {
     /// Its vertices in mm, without repeating the first at the end.
     pub points: Vec<DVec2>,
@@ -38,10 +39,9 @@ pub(crate) fn ring_on_grid(points: Vec<DVec2>, width: f64, grid: f64, least: f64
 /// The points on the grid, without sides that are too short.
 pub(crate) fn rounded(points: &[DVec2], grid: f64) -> Vec<DVec2> {
     let least = LEAST_SIDE * grid;
-    let steps = 1.0 / grid;
     let mut kept: Vec<DVec2> = Vec::with_capacity(points.len());
     for &point in points {
-        let point = (point * steps).round() / steps;
+        let point = on_grid(point, grid);
         if kept.last().is_none_or(|last| last.distance(point) >= least) {
             kept.push(point);
         }

@@ -1,6 +1,6 @@
 //! From rings and joints to closed curves: arcs and legs by turns.
 
-use argil_curve::DVec2;
+use argil_curve::{DVec2, on_grid};
 
 use crate::FillCurve;
 use crate::curve::Bead;
@@ -26,7 +26,7 @@ pub(crate) fn traced(tracks: &[Track], joints: &[Candidate], grid: f64) -> Vec<F
     for joint in joints {
         let base = tips.len();
         let wrap = |track: usize, arc: f64| arc.rem_euclid(tracks[track].curve.length());
-        let on_grid = |p: DVec2| (p / grid).round() * grid;
+        let on_grid = |p: DVec2| on_grid(p, grid);
         // Tips 0 and 1 are the first track's low and high end, 2 and 3 where their legs arrive.
         for (end, leg) in joint.legs.iter().enumerate() {
             let [track, _] = joint.tracks;

@@ -2,8 +2,8 @@
 
 mod shapes;
 
-use argil_curve::{DVec2, Segment, SegmentIndex, self_crossings};
-use argil_fill::{Bead, Fill, FillError, FillOptions, Ring, fill, merge};
+use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex, self_crossings};
+use argil_fill::{Bead, Fill, FillError, FillOptions, FillPattern, Ring, fill, merge};
 use geo::{Buffer, Distance, Euclidean, MapCoords, Point};
 use geo_types::{Coord, LineString, MultiPolygon};
 use proptest::prelude::*;
@@ -70,6 +70,23 @@ fn departure(region: &MultiPolygon<f64>, fill: &Fill) -> Result<(), String> {
     Ok(())
 }
 
+fn spiralled(region: &MultiPolygon<f64>) -> Fill {
+    let options = FillOptions { pattern: FillPattern::Spirals, ..options() };
+    fill(region, &[], &options, &[]).expect("a region of finite size has a fill")
+}
+
+/// Turns by more than 60° within half a bead, on all curves.
+fn sharp_turns(fill: &Fill) -> usize {
+    let of_curve = |points: &[DVec2]| {
+        let curve = ClosedCurve::new(points.to_vec()).expect("a curve of a fill is one");
+        let dense = curve.resampled(0.25 * WIDTH);
+        let heading = |k: usize| (dense[(k + 1) % dense.len()] - dense[k % dense.len()]).normalize_or_zero();
+        let is_sharp = |k: usize| heading(k).dot(heading(k + 2)) < 0.5;
+        (0..dense.len()).filter(|&k| is_sharp(k) && !is_sharp((k + dense.len() - 1) % dense.len())).count()
+    };
+    fill.curves.iter().map(|curve| of_curve(&curve.points)).sum()
+}
+
 /// The share of the wall paths that no strand comes within 0.08 w of.
 fn missed(region: &MultiPolygon<f64>, fill: &Fill) -> f64 {
     let wanted = region.buffer(-0.53 * WIDTH).buffer(0.03 * WIDTH);
@@ -110,6 +127,28 @@ proptest! {
         prop_assert!(fill.figures.coverage >= 0.97 - 0.17 * odd, "{shares:?}: {:?}", fill.figures);
         let most = 0.16 + 0.5 * thin + 0.36 * odd;
         prop_assert!(fill.figures.overdeposit <= most, "{shares:?}: {:?}", fill.figures);
+    }
+
+    #[test]
+    fn spirals_fill_any_region(region in region()) {
+        let fill = spiralled(&region);
+        prop_assert_eq!(departure(&region, &fill), Ok(()));
+        prop_assert_eq!(&fill, &spiralled(&region), "the same again");
+        prop_assert!(missed(&region, &fill) <= 0.002, "{} of the walls missed", missed(&region, &fill));
+        prop_assert!(fill.curves.len() <= region.buffer(-0.52 * WIDTH).0.len().max(1));
+        prop_assert!(fill.bare.iter().all(|disc| disc.diameter <= 0.8 * WIDTH), "{:?}", fill.bare);
+        let odd = share_of_strips(&region, 2.0 * WIDTH, 3.3 * WIDTH);
+        prop_assert!(fill.figures.coverage >= 0.96 - 0.17 * odd, "{odd}: {:?}", fill.figures);
+    }
+
+    #[test]
+    fn wide_regions_have_one_spiral_that_hardly_turns(region in wide()) {
+        let [rings, spiral] = [filled(&region), spiralled(&region)];
+        prop_assert_eq!(departure(&region, &spiral), Ok(()));
+        prop_assert_eq!(spiral.curves.len(), 1);
+        if rings.figures.rings > 6 {
+            prop_assert!(spiral.figures.rings < rings.figures.rings, "{:?}", spiral.figures);
+        }
     }
 
     #[test]
@@ -263,6 +302,18 @@ fn walls_stay_whole_but_for_a_tenth_of_a_bead() {
         assert!(kept > whole - 0.21 * WIDTH && kept < whole, "{kept} of {whole}");
         assert!(ring.points.iter().all(|p| curve.points.contains(p)), "a corner is not what it was");
     }
+}
+
+#[test]
+fn a_spiral_turns_back_at_its_ends_alone() {
+    let plate = disc(0.0, 0.0, 22.0);
+    let [rings, spiral] = [filled(&plate), spiralled(&plate)];
+    // The wall, the spiral, and within it what is too short for one.
+    assert!(spiral.figures.rings <= 4 && rings.figures.rings >= 14, "{:?}", spiral.figures);
+    let [many, few] = [sharp_turns(&rings), sharp_turns(&spiral)];
+    assert!(3 * few < many, "{few} turns in place of {many}");
+    assert!(spiral.figures.coverage > 0.985 && spiral.figures.overdeposit < 0.05, "{:?}", spiral.figures);
+    assert!((spiral.figures.length / rings.figures.length - 1.0).abs() < 0.02);
 }
 
 #[test]

@@ -3,7 +3,16 @@
 use std::fmt;
 
 /// A family of firmware, for what not every one of them can do.
+///
+/// # Example
+/// ```
+/// use argil_gcode::Flavour;
+/// assert!(Flavour::Marlin.knows_volumetric() && !Flavour::Klipper.knows_volumetric());
+/// assert_eq!(Flavour::RepRapFirmware.to_string(), "RepRapFirmware");
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum Flavour {
     /// Marlin and its descendants. E is kept in single precision.
     #[default]
@@ -40,6 +49,8 @@ impl fmt::Display for Flavour {
 
 /// How paste is asked for.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Extrusion {
     /// By E, of which one unit pushes out [`mm3_per_e`](crate::GcodeSettings::mm3_per_e).
     #[default]

@@ -14,6 +14,7 @@ mod settings;
 mod words;
 mod writer;
 
+pub use argil_strand as strand;
 pub use dialect::{Extrusion, Flavour};
 pub use error::GcodeError;
 pub use poses::Poses;

@@ -13,6 +13,8 @@ use crate::{Extrusion, Gcode};
 struct Due {
     to: [i64; 3],
     pushed: i64,
+    /// mm/s.
+    speed: f64,
 }
 
 /// Where the nozzle is on the grid, and what has been pushed out.
@@ -104,7 +106,7 @@ impl<'p, 'f> Pen<'p, 'f> {
     pub(crate) fn lay(&mut self, step: &Step, exactly: bool) -> fmt::Result {
         let (e_grid, settings) = (self.gcode.e_grid, self.gcode.settings);
         let layer = &self.gcode.strand.layers()[step.layer];
-        self.due += step.length() * settings.bead.area(layer.width, layer.height) / settings.paste_per_e();
+        self.due += step.length() * settings.bead.area(layer.width, step.height) / settings.paste_per_e();
         let to = self.on_grid(step.to.to_array());
         let owed = e_grid.step(self.due).unwrap_or(self.paid) - self.paid;
         let unpaid = owed < 1 && !matches!(settings.extrusion, Extrusion::Constant { .. });
@@ -118,9 +120,9 @@ impl<'p, 'f> Pen<'p, 'f> {
         }
         let pushed = owed.max(1);
         self.paid += pushed;
-        self.run.push(Due { to, pushed });
-        // Arcs are flat; without arcs nothing is gained by waiting.
-        if settings.arc_tolerance.is_none() || to[2] != self.at[2] {
+        self.run.push(Due { to, pushed, speed: settings.speed_of(self.gcode.strand, step) });
+        // On a level layer arcs are flat; without arcs nothing is gained by waiting.
+        if settings.arc_tolerance.is_none() || (to[2] != self.at[2] && !self.rises()) {
             self.flush()?;
         }
         self.at = to;
@@ -139,7 +141,8 @@ impl<'p, 'f> Pen<'p, 'f> {
         }
         let mut done = 0;
         while done < run.len() {
-            let arc = tolerance.and_then(|tolerance| longest_arc(points.get(done..)?, tolerance));
+            let arc =
+                tolerance.and_then(|tolerance| self.arc(points.get(done..)?, run.get(done..)?, tolerance));
             let moves = arc.map_or(1, |arc| arc.moves);
             self.write(&run[done..done + moves], arc)?;
             done += moves;
@@ -149,10 +152,26 @@ impl<'p, 'f> Pen<'p, 'f> {
         Ok(())
     }
 
+    fn rises(&self) -> bool {
+        !self.gcode.strand.rises(self.layer).is_empty()
+    }
+
+    /// The longest arc at the beginning of a run, along which z and E grow evenly: machines know no other arcs.
+    fn arc(&self, points: &[[i64; 2]], run: &[Due], tolerance: f64) -> Option<FittedArc> {
+        let mut most = points.len();
+        loop {
+            let arc = longest_arc(points.get(..most)?, tolerance)?;
+            if !self.rises() || grow_evenly(self.from, &run[..arc.moves], tolerance) {
+                return Some(arc);
+            }
+            most = arc.moves / 2 + 1;
+        }
+    }
+
     /// Writes some moves as one.
     fn write(&mut self, moves: &[Due], arc: Option<FittedArc>) -> fmt::Result {
         let (grid, e_grid, settings) = (self.gcode.grid, self.gcode.e_grid, self.gcode.settings);
-        let Some(&Due { to, .. }) = moves.last() else { return Ok(()) };
+        let Some(&Due { to, speed, .. }) = moves.last() else { return Ok(()) };
         let pushed: i64 = moves.iter().map(|due| due.pushed).sum();
         self.written += pushed;
         let code = match arc {
@@ -171,18 +190,61 @@ impl<'p, 'f> Pen<'p, 'f> {
             let e = if settings.relative_e { pushed } else { self.written };
             write!(self.out, " E{}", e_grid.text(e))?;
         }
-        self.feed(settings.speed(self.gcode.strand, self.layer))?;
+        self.feed(speed)?;
         self.from = to;
         writeln!(self.out)
     }
 
-    /// Straight up from the last point.
+    /// On along the last cycle without E, as far as the nozzle is to be wiped.
+    fn wipe(&mut self) -> fmt::Result {
+        let (grid, mut left) = (self.gcode.grid, self.gcode.settings.wipe);
+        let cycle = self.gcode.strand.polyline(self.layer);
+        for pair in cycle.windows(2) {
+            let length = pair[0].distance(pair[1]);
+            if left <= 0.0 {
+                break;
+            }
+            let to = if left < length { pair[0].lerp(pair[1], left / length) } else { pair[1] };
+            left -= length;
+            let [x, y, _] = self.on_grid([to.x, to.y, 0.0]);
+            if [x, y] != [self.at[0], self.at[1]] {
+                writeln!(self.out, "G1 X{} Y{}", grid.text(x), grid.text(y))?;
+                (self.at[0], self.at[1]) = (x, y);
+            }
+        }
+        Ok(())
+    }
+
+    /// Straight up from the last point, or from where the nozzle has been wiped.
     pub(crate) fn leave(&mut self) -> fmt::Result {
         self.flush()?;
+        self.wipe()?;
         let (grid, settings) = (self.gcode.grid, self.gcode.settings);
         let lift = grid.step(settings.lift).unwrap_or(0);
         write!(self.out, "G1 Z{}", grid.text(self.at[2].saturating_add(lift)))?;
         self.feed(settings.approach_feed)?;
         writeln!(self.out)
     }
+}
+
+/// Share of an arc's E by which that of its moves may be ahead or behind, and the steps of the E grid that rounding adds.
+const UNEVEN: (f64, f64) = (0.02, 2.0);
+
+/// Whether z and E of moves that an arc is to stand for grow in proportion to the way.
+fn grow_evenly(from: [i64; 3], moves: &[Due], tolerance: f64) -> bool {
+    let mut at = from;
+    let (mut way, mut pushed) = (0.0, 0);
+    let mut reached = Vec::with_capacity(moves.len());
+    for due in moves {
+        way += ((due.to[0] - at[0]) as f64).hypot((due.to[1] - at[1]) as f64);
+        pushed += due.pushed;
+        at = due.to;
+        reached.push((way, (at[2] - from[2]) as f64, pushed as f64));
+    }
+    let Some(&(length, rise, paste)) = reached.last() else { return true };
+    reached.iter().all(|&(way, z, e)| {
+        let share = way / length.max(f64::MIN_POSITIVE);
+        (z - share * rise).abs() <= tolerance
+            && (e - share * paste).abs() <= UNEVEN.0 * paste + UNEVEN.1 * moves.len() as f64
+    })
 }

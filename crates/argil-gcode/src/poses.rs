@@ -16,7 +16,7 @@ use crate::{GcodeError, GcodeSettings};
 ///
 /// # Example
 /// ```
-/// # use argil_strand::{DVec2, Move, Role, Strand, StrandLayer};
+/// # use argil_gcode::strand::{DVec2, Move, Role, Strand, StrandLayer};
 /// use argil_gcode::{GcodeSettings, Poses};
 /// # let moves = [(9.0, 0.0), (0.0, 9.0), (0.0, 0.0)].map(|(x, y)| Move { to: DVec2::new(x, y), role: Role::Wall });
 /// # let layer = StrandLayer { index: 0, z: 0.5, height: 0.5, width: 1.5, moves: moves.to_vec(), supports: vec![] };
@@ -61,12 +61,12 @@ impl fmt::Display for Poses<'_> {
         writeln!(f, "n,layer,role,x_mm,y_mm,z_mm,ax,ay,az,speed_mm_s,flow_mm3_s,width_mm,height_mm")?;
         for (k, step) in self.strand.steps().enumerate() {
             let layer = &self.strand.layers()[step.layer];
-            let bead = (layer.width, layer.height);
+            let bead = (layer.width, step.height);
             if k == 0 {
                 row(f, 0, layer.index, "", step.from.to_array(), [self.settings.approach_feed, 0.0], bead)?;
             }
-            let speed = self.settings.speed(self.strand, step.layer);
-            let flow = speed * self.settings.bead.area(layer.width, layer.height);
+            let speed = self.settings.speed_of(self.strand, &step);
+            let flow = speed * self.settings.bead.area(layer.width, step.height);
             row(f, k + 1, layer.index, step.role.name(), step.to.to_array(), [speed, flow], bead)?;
         }
         Ok(())

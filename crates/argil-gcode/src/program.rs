@@ -2,6 +2,7 @@
 
 /// A straight move, extruding or not.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Move {
     /// Where it begins, mm.
     pub from: [f64; 3],
@@ -27,6 +28,8 @@ impl Move {
 
 /// What is wrong with a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Fault {
     /// A number too large for arithmetic, or a position that became one.
@@ -39,6 +42,7 @@ pub enum Fault {
 
 /// A line that could not be read as it was meant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct BadLine {
     /// Its number, counted from 1.
     pub line: usize,
@@ -47,7 +51,18 @@ pub struct BadLine {
 }
 
 /// The moves of a g-code file, with what its comments say about them.
+///
+/// # Example
+/// ```
+/// use argil_gcode::{Program, read_gcode};
+/// let program: Program = read_gcode("M83\nG0 X5\n;TYPE:WALL-OUTER\nG1 X9 E2\nG1 Y9 E2\nG0 Z9\n");
+/// let strand = program.strand_moves();
+/// assert_eq!((program.moves.len(), strand.len()), (4, 2));
+/// assert_eq!(program.kind_of(&strand[0]), Some("WALL-OUTER"));
+/// assert_eq!(program.extruded(), 4.0);
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Program {
     /// Every move, in order; each begins where the one before ended, but for G92.
     pub moves: Vec<Move>,

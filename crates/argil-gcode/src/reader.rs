@@ -197,5 +197,6 @@ impl Machine {
 /// What follows a word at the beginning of a comment, whatever its case.
 fn after<'t>(comment: &'t str, word: &str) -> Option<&'t str> {
     let head = comment.get(..word.len())?;
+    // The head ends between characters, or there would be none.
     head.eq_ignore_ascii_case(word).then(|| &comment[word.len()..])
 }

@@ -1,6 +1,6 @@
 //! What the writer must be told about machine, paste and viewer.
 
-use argil_strand::{BeadShape, Role, Strand};
+use argil_strand::{BeadShape, Role, Step, Strand};
 
 use crate::{Extrusion, Flavour, GcodeError};
 
@@ -9,13 +9,18 @@ use crate::{Extrusion, Flavour, GcodeError};
 /// PrusaSlicer's viewer derives bead widths from E with this diameter, and the clay printers of Eazao count so.
 pub const FILAMENT_1_75: f64 = std::f64::consts::PI * 1.75 * 1.75 / 4.0;
 
+/// The thinnest bead that a constant rate of paste is spread for, as a share of the layer's height.
+const THINNEST: f64 = 0.25;
+
 /// The word that a viewer knows for each role, written after `;TYPE:`.
 ///
 /// No vocabulary is known to all viewers: PrusaSlicer colours its own words only, Cura logs foreign ones and shows the
 /// type before. The words are therefore data, with the three common vocabularies at hand. The words of roles other
-/// than fill keep clear of `fill`, `skin`, `top`, `bottom`, `floor`, `roof`, `skirt`, `prime` and `purge`, which tools
-/// that measure g-code read as solid surfaces or as extras beside the part.
+/// than fill keep clear of `fill`, `skin`, `top`, `bottom`, `floor` and `roof`, those of roles other than skirt of `skirt`, `prime`
+/// and `purge`: tools that measure g-code read these as solid surfaces and as extras beside the part.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct RoleNames {
     /// For [`Role::Wall`].
     pub wall: String,
@@ -27,6 +32,8 @@ pub struct RoleNames {
     pub seam: String,
     /// For [`Role::Fill`].
     pub fill: String,
+    /// For [`Role::Skirt`].
+    pub skirt: String,
 }
 
 impl Default for RoleNames {
@@ -38,7 +45,7 @@ impl Default for RoleNames {
 }
 
 impl RoleNames {
-    fn of_words([wall, support, connection, seam, fill]: [&str; 5]) -> Self {
+    fn of_words([wall, support, connection, seam, fill, skirt]: [&str; 6]) -> Self {
         let own = str::to_owned;
         Self {
             wall: own(wall),
@@ -46,6 +53,7 @@ impl RoleNames {
             connection: own(connection),
             seam: own(seam),
             fill: own(fill),
+            skirt: own(skirt),
         }
     }
 
@@ -53,19 +61,20 @@ impl RoleNames {
     #[must_use]
     pub fn prusa_slicer() -> Self {
         let words = ["External perimeter", "Support material", "Support material interface", "Custom"];
-        Self::of_words([words[0], words[1], words[2], words[3], "Solid infill"])
+        Self::of_words([words[0], words[1], words[2], words[3], "Solid infill", "Skirt/Brim"])
     }
 
     /// The words of Cura's viewer, which many web viewers understand too.
     #[must_use]
     pub fn cura() -> Self {
-        Self::of_words(["WALL-OUTER", "SUPPORT", "SUPPORT-INTERFACE", "WALL-INNER", "FILL"])
+        Self::of_words(["WALL-OUTER", "SUPPORT", "SUPPORT-INTERFACE", "WALL-INNER", "FILL", "SKIRT"])
     }
 
     /// The words of OrcaSlicer's g-code viewer.
     #[must_use]
     pub fn orca_slicer() -> Self {
-        Self::of_words(["Outer wall", "Support", "Support interface", "Custom", "Internal solid infill"])
+        let words = ["Outer wall", "Support", "Support interface", "Custom"];
+        Self::of_words([words[0], words[1], words[2], words[3], "Internal solid infill", "Skirt"])
     }
 
     /// The word for a role.
@@ -76,6 +85,7 @@ impl RoleNames {
             Role::Connection => &self.connection,
             Role::Seam => &self.seam,
             Role::Fill => &self.fill,
+            Role::Skirt => &self.skirt,
             // Roles added later are not part of the model until they are given a word of their own.
             _ => &self.support,
         }
@@ -85,7 +95,7 @@ impl RoleNames {
     ///
     /// ```
     /// use argil_gcode::RoleNames;
-    /// use argil_strand::Role;
+    /// use argil_gcode::strand::Role;
     /// assert_eq!(RoleNames::cura().role("wall-outer"), Some(Role::Wall));
     /// assert_eq!(RoleNames::cura().role("Brim"), None);
     /// ```
@@ -97,6 +107,8 @@ impl RoleNames {
 
 /// How a strand is written as g-code.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct GcodeSettings {
     /// Decimals of coordinates in mm. Default 4, the grid of 1e-4 mm on which plans are checked: with fewer, the
     /// written path is not the checked one. At most 6.
@@ -130,6 +142,9 @@ pub struct GcodeSettings {
     pub approach_feed: f64,
     /// How far above the first point the nozzle comes in, and above the last it leaves, mm. Default 5.
     pub lift: f64,
+    /// How far the nozzle goes on along the cycle of the uppermost layer, without E, before it leaves, mm: what still comes out
+    /// is wiped off on strand that lies there. At most once round. Default 0.
+    pub wipe: f64,
     /// What is said to have made the file. Default: the name and version of argil. Some viewers change their reading
     /// when they find their own name here.
     pub generator: String,
@@ -163,6 +178,7 @@ impl Default for GcodeSettings {
             first_layer_feed: 15.0,
             approach_feed: 25.0,
             lift: 5.0,
+            wipe: 0.0,
             generator: format!("argil {}", env!("CARGO_PKG_VERSION")),
             header: Vec::new(),
             preface: Vec::new(),
@@ -194,6 +210,19 @@ impl GcodeSettings {
         }
     }
 
+    /// Speed on a step of the strand, mm/s: that of its layer, or, where a constant rate of paste meets a bead of another height than
+    /// its layer's, what that bead asks for. Beads thinner than a quarter of the layer are laid as if they were that thick, since
+    /// their speed would have no limit.
+    #[must_use]
+    pub fn speed_of(&self, strand: &Strand, step: &Step) -> f64 {
+        match (self.extrusion, strand.layers().get(step.layer)) {
+            (Extrusion::Constant { rate }, Some(laid)) => {
+                rate / self.bead.area(laid.width, step.height.max(THINNEST * laid.height))
+            }
+            _ => self.speed(strand, step.layer),
+        }
+    }
+
     /// Refuses numbers that cannot be written or would not extrude, and comments that would be read as others. Writers
     /// call it themselves.
     ///
@@ -208,6 +237,7 @@ impl GcodeSettings {
         within("e_decimals", f64::from(self.e_decimals.unwrap_or(5)), 0.0, 9.0, "at most 9")?;
         within("mm3_per_e", self.mm3_per_e, 1e-6, 1e6, "between 1e-6 and 1e6 mm³")?;
         within("lift", self.lift, 0.0, 1e6, "between 0 and 1e6 mm")?;
+        within("wipe", self.wipe, 0.0, 1e6, "between 0 and 1e6 mm")?;
         within("arc_tolerance", self.arc_tolerance.unwrap_or(0.0), 0.0, 1e3, "between 0 and 1000 mm")?;
         match self.extrusion {
             Extrusion::Units => {}

@@ -17,6 +17,7 @@ pub(crate) fn words(code: &str) -> impl Iterator<Item = Word> + '_ {
     std::iter::from_fn(move || {
         loop {
             let at = rest.find(|c: char| c.is_ascii_alphabetic())?;
+            // An ASCII letter was found there, one byte long.
             let letter = rest.as_bytes()[at].to_ascii_uppercase();
             rest = &rest[at + 1..];
             let number = rest.trim_start();
@@ -33,6 +34,7 @@ pub(crate) fn words(code: &str) -> impl Iterator<Item = Word> + '_ {
 
 /// Bytes at the beginning that form a number: sign, digits with at most one point among or around them, exponent.
 fn number_length(text: &[u8]) -> usize {
+    // Asked from the end of what was met, which is within the text.
     let digits = |from: usize| text[from..].iter().take_while(|byte| byte.is_ascii_digit()).count();
     let sign = usize::from(matches!(text.first(), Some(b'+' | b'-')));
     let whole = digits(sign);

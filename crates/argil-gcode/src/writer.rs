@@ -20,7 +20,7 @@ const E_DECIMALS: u8 = 5;
 ///
 /// # Example
 /// ```
-/// # use argil_strand::{DVec2, Move, Role, Strand, StrandLayer};
+/// # use argil_gcode::strand::{DVec2, Move, Role, Strand, StrandLayer};
 /// use std::fmt::Write;
 /// use argil_gcode::{Gcode, GcodeSettings};
 /// # let moves = [(9.0, 0.0), (0.0, 9.0), (0.0, 0.0)].map(|(x, y)| Move { to: DVec2::new(x, y), role: Role::Wall });
@@ -55,7 +55,7 @@ pub struct Gcode<'a> {
 ///
 /// # Example
 /// ```
-/// # use argil_strand::{DVec2, Move, Role, Strand, StrandLayer};
+/// # use argil_gcode::strand::{DVec2, Move, Role, Strand, StrandLayer};
 /// use argil_gcode::{GcodeSettings, read_gcode, write_gcode};
 /// # let moves = [(9.0, 0.0), (0.0, 9.0), (0.0, 0.0)].map(|(x, y)| Move { to: DVec2::new(x, y), role: Role::Wall });
 /// # let layer = StrandLayer { index: 0, z: 0.5, height: 0.5, width: 1.5, moves: moves.to_vec(), supports: vec![] };
@@ -83,6 +83,7 @@ impl<'a> Gcode<'a> {
         let mut below = None;
         for (layer, laid) in strand.layers().iter().enumerate() {
             let reach = laid.moves.iter().flat_map(|step| [step.to.x, step.to.y]);
+            let reach = reach.chain(strand.rises(layer).iter().map(|rise| rise.z + settings.lift));
             for value in reach.chain([laid.z + settings.lift, laid.width, laid.height]) {
                 grid.step(value).ok_or(GcodeError::OutOfRange { layer, value, decimals: grid.decimals() })?;
             }
@@ -139,7 +140,10 @@ impl<'a> Gcode<'a> {
                 pen.open_layer(step.layer)?;
                 position = Some(step.layer);
             }
-            let closes = steps.peek().is_none_or(|next| next.layer != step.layer || next.role == Role::Seam);
+            let closes = steps.peek().is_none_or(|next| {
+                let enters = step.role == Role::Skirt && next.role != Role::Skirt;
+                next.layer != step.layer || next.role == Role::Seam || enters
+            });
             pen.lay(&step, closes || step.role == Role::Seam)?;
         }
         pen.leave()?;

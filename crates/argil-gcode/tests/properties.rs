@@ -4,13 +4,35 @@
 use argil_gcode::{
     Extrusion, Fault, Flavour, GcodeError, GcodeSettings, Poses, RoleNames, read_gcode, write_gcode,
 };
-use argil_strand::{BeadShape, DVec2, Move, Role, Strand, StrandLayer};
+use argil_strand::{BeadShape, DVec2, Move, Rise, Role, Strand, StrandLayer};
 use proptest::prelude::*;
 
 const ROLES: [Role; 4] = [Role::Wall, Role::Support, Role::Connection, Role::Fill];
 
 /// Strands with points on a grid of `step` mm; a coarse grid makes many points coincide.
 fn strands(step: f64, reach: i32) -> impl Strategy<Value = Strand> {
+    (level_strands(step, reach), any::<bool>())
+        .prop_map(|(strand, rises)| if rises { risen(strand) } else { strand })
+}
+
+/// The same strand, its layers rising evenly but for the lowest and the uppermost, on a grid of 1e-4 mm.
+fn risen(strand: Strand) -> Strand {
+    let mut below = strand.layers()[0].z;
+    let last = strand.layers().len() - 1;
+    let rise = |(k, layer): (usize, &StrandLayer)| {
+        let (from, count) = (std::mem::replace(&mut below, layer.z), layer.moves.len() as f64);
+        let at = |n: usize| {
+            let share = (n + 1) as f64 / count;
+            let z = ((from + (layer.z - from) * share) * 1e4).round() / 1e4;
+            Rise { z, height: layer.height * (0.5 + 0.5 * share) }
+        };
+        if k == 0 || k == last { Vec::new() } else { (0..layer.moves.len()).map(at).collect() }
+    };
+    let rises = strand.layers().iter().enumerate().map(rise).collect();
+    strand.risen(rises).unwrap()
+}
+
+fn level_strands(step: f64, reach: i32) -> impl Strategy<Value = Strand> {
     let point = (-reach..reach, -reach..reach)
         .prop_map(move |(x, y)| DVec2::new(f64::from(x) * step, f64::from(y) * step));
     let cycle = prop::collection::vec((point, 0..4usize), 1..12);
@@ -401,4 +423,99 @@ fn poses_have_the_paste_of_the_strand() {
         })
         .sum();
     assert!((paste - strand.volume()).abs() < 1e-3, "{paste}");
+}
+
+/// A ring of many points, laid level once, then rising by a layer a turn as often as is said, and level at last.
+fn helix(turns: usize, count: usize) -> Strand {
+    let at = |k: usize| DVec2::from_angle(std::f64::consts::TAU * (k % count) as f64 / count as f64) * 30.0;
+    let turn: Vec<Move> = (1..=count).map(|k| Move { to: at(k), role: Role::Wall }).collect();
+    let seam = Move { to: at(0), role: Role::Seam };
+    let layer = |k: usize| StrandLayer {
+        index: k,
+        z: 0.5 * (k as f64 + 1.0),
+        height: 0.5,
+        width: 1.5,
+        moves: (k > 0).then_some(seam).into_iter().chain(turn.clone()).collect(),
+        supports: vec![],
+    };
+    let share = |n: usize| n as f64 / count as f64;
+    let rise = |k: usize, n: usize| match k {
+        1 => Rise { z: 0.5 + 0.5 * share(n), height: 0.5 * share(n) },
+        _ if k > turns => Rise { z: 0.5 * (turns as f64 + 1.0), height: 0.5 * (1.0 - share(n)) },
+        _ => Rise { z: 0.5 * (k as f64 + share(n)), height: 0.5 },
+    };
+    let rises = |k: usize| if k == 0 { Vec::new() } else { (0..=count).map(|n| rise(k, n)).collect() };
+    let strand = Strand::new(at(0), (0..turns + 2).map(layer).collect()).unwrap();
+    strand.risen((0..turns + 2).map(rises).collect()).unwrap()
+}
+
+#[test]
+fn a_helix_becomes_few_arcs_that_rise_evenly() {
+    let strand = helix(4, 400);
+    let settings = GcodeSettings { arc_tolerance: Some(0.02), ..GcodeSettings::default() };
+    let text = write_gcode(&strand, &settings).unwrap();
+    let rising = |line: &&str| line.starts_with("G3 ") && line.contains(" Z");
+    let helical = text.lines().filter(rising).count();
+    assert!((9..60).contains(&helical) && text.lines().count() < 400, "{helical} arcs that rise in {text}");
+    let program = read_gcode(&text);
+    assert!((program.extruded() * settings.mm3_per_e - strand.volume()).abs() < 1e-3);
+    // Everywhere on the way up the nozzle is as high as the angle asks for.
+    for step in program.strand_moves().iter().filter(|step| (2..=4).contains(&step.layer.unwrap())) {
+        let turned = step.to[1].atan2(step.to[0]).rem_euclid(std::f64::consts::TAU) / std::f64::consts::TAU;
+        let off = (step.to[2] / 0.5 - turned).rem_euclid(1.0);
+        assert!(off.min(1.0 - off) < 0.06, "{step:?}: {off}");
+    }
+    // A bead that tapers is no arc of an even flow.
+    let flows = |layer: i64| -> Vec<f64> {
+        let own = program.strand_moves().iter().filter(|step| step.layer == Some(layer));
+        own.filter(|step| step.planar_length() > 0.3)
+            .map(|step| step.extruded / step.planar_length())
+            .collect()
+    };
+    let (first, last) = (flows(1), flows(5));
+    assert!(first[first.len() - 1] > 8.0 * first[0] && last[0] > 8.0 * last[last.len() - 1]);
+    let bare = write_gcode(&strand, &GcodeSettings::default()).unwrap();
+    let heights: Vec<f64> = read_gcode(&bare).strand_moves().iter().map(|step| step.to[2]).collect();
+    assert!(heights.is_sorted() && heights.len() > 2000);
+}
+
+#[test]
+fn a_constant_rate_is_spread_along_what_rises() {
+    let strand = helix(3, 60);
+    let rate = 20.0;
+    let settings = GcodeSettings { extrusion: Extrusion::Constant { rate }, ..GcodeSettings::default() };
+    for step in strand.steps() {
+        let paste = settings.speed_of(&strand, &step) * settings.bead.area(1.5, step.height.max(0.125));
+        assert!((paste - rate).abs() < 1e-9);
+    }
+    assert!(write_gcode(&strand, &settings).unwrap().matches(" F").count() > 60);
+}
+
+#[test]
+fn the_nozzle_is_wiped_along_what_lies_there() {
+    let wiped =
+        |wipe| write_gcode(&square(8.0), &GcodeSettings { wipe, ..GcodeSettings::default() }).unwrap();
+    assert!(wiped(10.0).ends_with("E2.31607\nG1 X8 Y0\nG1 X8 Y2\nG1 Z5.5 F1500\n"), "{}", wiped(10.0));
+    let whole = wiped(1e6);
+    assert!(whole.ends_with("G1 X8 Y0\nG1 X8 Y8\nG1 X0 Y8\nG1 X0 Y0\nG1 Z5.5 F1500\n"), "{whole}");
+    let (with, without) = (read_gcode(&whole), read_gcode(&wiped(0.0)));
+    assert_eq!(with.strand_moves(), without.strand_moves());
+    let refused = write_gcode(&square(8.0), &GcodeSettings { wipe: -1.0, ..GcodeSettings::default() });
+    assert!(matches!(refused, Err(GcodeError::Setting { name: "wipe", .. })));
+}
+
+#[test]
+fn a_skirt_is_named_so_that_tools_leave_it_out() {
+    let mut layers = square(8.0).into_layers();
+    let skirt = [(20.0, -5.0), (0.0, 0.0)].map(|(x, y)| Move { to: DVec2::new(x, y), role: Role::Skirt });
+    layers[0].moves.splice(0..0, skirt);
+    let strand = Strand::new(DVec2::new(-5.0, -5.0), layers).unwrap();
+    for names in [RoleNames::prusa_slicer(), RoleNames::cura(), RoleNames::orca_slicer()] {
+        let settings = GcodeSettings { names, ..GcodeSettings::default() };
+        let program = read_gcode(&write_gcode(&strand, &settings).unwrap());
+        let kinds: Vec<_> = program.strand_moves().iter().filter_map(|step| program.kind_of(step)).collect();
+        assert_eq!(kinds.len(), 6);
+        assert!(kinds[..2].iter().all(|kind| kind.to_lowercase().contains("skirt")), "{kinds:?}");
+        assert!(kinds[2..].iter().all(|kind| !kind.to_lowercase().contains("skirt")), "{kinds:?}");
+    }
 }

@@ -53,12 +53,12 @@ impl PathGraph {
     ///
     /// # Example
     /// ```
-    /// use argil_graph::PathGraph;
+    /// use argil_graph::{DistanceLabels, PathGraph};
     /// use glam::dvec2;
     ///
     /// let corners = vec![dvec2(0.0, 0.0), dvec2(3.0, 0.0), dvec2(3.0, 4.0), dvec2(9.0, 9.0)];
     /// let graph = PathGraph::from_edges(corners, &[], &[], &[(0, 1, 3.0), (1, 2, 4.0)])?;
-    /// let distances = graph.distances_on_demand(&[2, 0, 3]);
+    /// let distances: DistanceLabels<'_> = graph.distances_on_demand(&[2, 0, 3]);
     /// assert_eq!(distances.get(0, 1), 7.0);
     /// assert_eq!(distances.get(0, 2), f64::INFINITY);
     /// # Ok::<(), argil_graph::GraphError>(())

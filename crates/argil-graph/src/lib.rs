@@ -1,4 +1,10 @@
 #![doc = include_str!("../README.md")]
+//!
+//! # In a picture
+//!
+#![doc = include_str!("../pictures/path-graph.svg")]
+//!
+//! The free space between two obstacles inside an outer loop: the graph, and the shortest path between two terminals. Ochre is an attachment.
 #![forbid(unsafe_code)]
 
 mod construction;
@@ -20,6 +26,7 @@ mod visit;
 
 pub use distances::Distances;
 pub use error::{GraphError, PointKind};
+pub use glam::DVec2;
 pub use graph::PathGraph;
 pub use labels::DistanceLabels;
 pub use matrix::DistanceMatrix;

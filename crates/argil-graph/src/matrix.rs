@@ -2,6 +2,17 @@
 pub(crate) const NOWHERE: u32 = u32::MAX;
 
 /// Shortest path lengths between all pairs of a list of vertices; symmetric.
+///
+/// # Example
+/// ```
+/// use argil_graph::{DVec2, DistanceMatrix, PathGraph};
+/// let places = [(0.0, 0.0), (3.0, 0.0), (3.0, 4.0)].map(DVec2::from).to_vec();
+/// let graph = PathGraph::from_edges(places, &[], &[], &[(0, 1, 3.0), (1, 2, 4.0)])?;
+/// let distances: DistanceMatrix = graph.distances(&[2, 0]);
+/// assert_eq!(distances.row(0), [0.0, 7.0]);
+/// assert_eq!(distances.get(0, 9), f64::INFINITY);
+/// # Ok::<(), argil_graph::GraphError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct DistanceMatrix {
     count: usize,

@@ -4,7 +4,7 @@ use glam::DVec2;
 ///
 /// Loops are cyclic without a repeated last point, simple, and pairwise disjoint; their orientation does not
 /// matter. They are the walls that no path may touch, except where it begins or ends at an attachment.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct FreeSpace<'a> {
     /// The loop round the region. Without one the region is unbounded, and a frame of four far vertices is
     /// added so that it stays connected whatever the holes are.
@@ -14,7 +14,7 @@ pub struct FreeSpace<'a> {
 }
 
 /// The points that become vertices of the graph.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Nodes<'a> {
     /// Wall vertices where a path may begin or end; each exactly equal to a vertex of some loop.
     pub attachments: &'a [DVec2],

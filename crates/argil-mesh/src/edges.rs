@@ -2,6 +2,15 @@
 ///
 /// Edges are numbered in the order of their lower, then higher vertex, so that the numbering
 /// depends on the mesh alone.
+///
+/// # Example
+/// ```
+/// use argil_mesh::{EdgeTable, Mesh};
+/// let table: EdgeTable = Mesh::cuboid([0.0; 3], [1.0, 1.0, 1.0])?.edges();
+/// assert_eq!(table.ends().len(), 18); // twelve of the box, and a diagonal a side
+/// assert!(table.triangle_counts().iter().all(|&count| count == 2));
+/// # Ok::<(), argil_mesh::MeshError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct EdgeTable {
     ends: Vec<[u32; 2]>,

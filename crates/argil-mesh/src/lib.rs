@@ -10,6 +10,7 @@
 //! Lengths are millimetres, z is up.
 #![forbid(unsafe_code)]
 
+mod cuboid;
 mod duplicates;
 mod edges;
 mod error;

@@ -10,6 +10,8 @@ pub(crate) const LARGEST: f64 = 1e6;
 /// Corners of a triangle run counter-clockwise seen from outside the solid. Every index is valid,
 /// every coordinate finite, and no triangle names a vertex twice: the constructors see to it.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "Unchecked"))]
 pub struct Mesh {
     vertices: Vec<[f64; 3]>,
     triangles: Vec<[u32; 3]>,
@@ -17,6 +19,7 @@ pub struct Mesh {
 
 /// The smallest box with axis-parallel sides that holds a mesh, in millimetres.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Bounds {
     /// The least x, y and z.
     pub min: [f64; 3],
@@ -48,6 +51,23 @@ impl Bounds {
             self.min[axis] = self.min[axis].min(value);
             self.max[axis] = self.max[axis].max(value);
         }
+    }
+}
+
+/// What a file may hold before it is known to be a mesh.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+struct Unchecked {
+    vertices: Vec<[f64; 3]>,
+    triangles: Vec<[u32; 3]>,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Unchecked> for Mesh {
+    type Error = MeshError;
+
+    fn try_from(unchecked: Unchecked) -> Result<Self, MeshError> {
+        Mesh::new(unchecked.vertices, unchecked.triangles)
     }
 }
 

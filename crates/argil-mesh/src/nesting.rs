@@ -3,8 +3,9 @@
 use crate::mesh::Bounds;
 use crate::normal::{length, normal};
 
-/// The most samples of one shell that are looked for in another.
-const MOST_SAMPLES: usize = 64;
+/// The most samples of one shell that are looked for in another: a part that sticks out of it is met if the shell has one triangle in so
+/// many there.
+const MOST_SAMPLES: usize = 4096;
 
 /// The most samples of all shells that are looked for at once, shared among them.
 const MOST_AT_ONCE: usize = 1 << 16;

@@ -1,8 +1,9 @@
 use crate::{Bounds, MeshError};
-use nalgebra::{Point3, Similarity3, Translation3, UnitQuaternion};
 
 /// How large a mesh is to be and where it is to stand.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct Placement {
     /// The size; as modelled by default.
     pub size: Size,
@@ -12,6 +13,8 @@ pub struct Placement {
 
 /// The size of a placed mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Size {
     /// As modelled, a unit of the file being a millimetre.
     #[default]
@@ -24,6 +27,8 @@ pub enum Size {
 
 /// Where a placed mesh stands in x and y.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Ground {
     /// At its own coordinates (times the scale).
     #[default]
@@ -49,20 +54,14 @@ pub(crate) fn place(
         return Err(MeshError::Place { x: place[0], y: place[1] });
     }
     // Move first, then scale: the lowest point then lies at zero exactly, not up to rounding.
-    let lowered = Translation3::new(-middle[0], -middle[1], -bounds.min[2]);
-    let scaled = Similarity3::from_parts(
-        Translation3::new(place[0], place[1], 0.0),
-        UnitQuaternion::identity(),
-        factor,
-    );
-    let mut placed: Vec<[f64; 3]> =
-        vertices.iter().map(|&vertex| (scaled * (lowered * Point3::from(vertex))).coords.into()).collect();
+    let (from, to) = ([middle[0], middle[1], bounds.min[2]], [place[0], place[1], 0.0]);
+    let moved = |v: &[f64; 3]| [0, 1, 2].map(|axis| (v[axis] - from[axis]) * factor + to[axis]);
+    let mut placed: Vec<[f64; 3]> = vertices.iter().map(moved).collect();
     if let Size::Height(height) = placement.size {
         // A layer is counted by comparing heights: the top must not miss its own by a rounding.
         for (vertex, original) in placed.iter_mut().zip(vertices) {
-            if original[2] == bounds.max[2] {
-                vertex[2] = height;
-            }
+            // Nor may what is a rounding below the top come to lie above it.
+            vertex[2] = if original[2] == bounds.max[2] { height } else { vertex[2].min(height) };
         }
     }
     Ok(placed)

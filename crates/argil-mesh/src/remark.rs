@@ -2,6 +2,8 @@ use std::fmt;
 
 /// Something of a file that was not taken as it stands, although it could be read.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Remark {
     /// The header of a binary STL declares fewer triangles than whole ones follow, or the largest number there is, as

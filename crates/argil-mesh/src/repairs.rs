@@ -5,6 +5,7 @@ const MOST_PLACES: usize = 8;
 
 /// Where something was met: how often, and the first few places.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Places {
     /// How often.
     pub count: usize,
@@ -24,7 +25,19 @@ impl Places {
 /// What was found wrong with triangles, and what was done about it, when a mesh was made of them.
 ///
 /// Open and crowded edges stay as they are: a gap is closed where a layer meets it, and told there.
+///
+/// # Example
+/// ```
+/// use argil_mesh::{Bounds, Mesh, Repairs, Soup};
+/// let mut soup = Soup::cuboid([0.0; 3], [4.0, 4.0, 4.0]);
+/// soup.triangles.pop();
+/// let (mesh, repairs): (Mesh, Repairs) = soup.repaired()?;
+/// assert_eq!(repairs.worst().map(|(kind, places)| (kind, places.count)), Some(("open edges", 3)));
+/// assert_eq!(mesh.bounds(), Bounds { min: [0.0; 3], max: [4.0; 3] });
+/// # Ok::<(), argil_mesh::MeshError>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Repairs {
     /// Connected surfaces: 1 for a plain solid, more for several bodies or for cavities.
     pub shells: usize,

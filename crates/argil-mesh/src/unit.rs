@@ -2,6 +2,8 @@ use std::fmt;
 
 /// A unit of length that model files are made in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Unit {
     /// 0.001 mm.
     Micron,
@@ -18,6 +20,26 @@ pub enum Unit {
 }
 
 impl Unit {
+    /// The unit of this name, as [`Display`](fmt::Display) writes it.
+    ///
+    /// # Example
+    /// ```
+    /// use argil_mesh::Unit;
+    /// assert_eq!((Unit::named("cm"), Unit::named("ell")), (Some(Unit::Centimetre), None));
+    /// ```
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Some(match name {
+            "micron" => Self::Micron,
+            "mm" => Self::Millimetre,
+            "cm" => Self::Centimetre,
+            "inch" => Self::Inch,
+            "foot" => Self::Foot,
+            "m" => Self::Metre,
+            _ => return None,
+        })
+    }
+
     /// How many millimetres it has.
     #[must_use]
     pub fn millimetres(self) -> f64 {

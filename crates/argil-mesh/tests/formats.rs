@@ -6,22 +6,7 @@ use proptest::prelude::*;
 
 /// A box of 9 by 6 by 3.
 fn cuboid() -> Soup {
-    let corner = |k: u32| [9.0 * f64::from(k & 1), 6.0 * f64::from(k >> 1 & 1), 3.0 * f64::from(k >> 2)];
-    let triangles = vec![
-        [0, 2, 1],
-        [1, 2, 3],
-        [4, 5, 6],
-        [5, 7, 6],
-        [0, 1, 4],
-        [1, 5, 4],
-        [2, 6, 3],
-        [3, 6, 7],
-        [0, 4, 2],
-        [2, 4, 6],
-        [1, 3, 5],
-        [3, 7, 5],
-    ];
-    Soup { vertices: (0..8).map(corner).collect(), triangles, ..Soup::default() }
+    Soup::cuboid([0.0; 3], [9.0, 6.0, 3.0])
 }
 
 fn volume(soup: &Soup) -> f64 {

@@ -240,26 +240,6 @@ fn sizes_that_are_no_sizes_are_refused() {
     assert_eq!(flat.placed(&tall), Err(MeshError::Height { from: 0.0, to: 5.0 }));
 }
 
-/// A box as a soup with shared vertices.
-fn cuboid(low: [f64; 3], high: [f64; 3]) -> Soup {
-    let corner = |k: usize| [0, 1, 2].map(|axis| if k >> axis & 1 == 0 { low[axis] } else { high[axis] });
-    let triangles = vec![
-        [0, 2, 1],
-        [1, 2, 3],
-        [4, 5, 6],
-        [5, 7, 6],
-        [0, 1, 4],
-        [1, 5, 4],
-        [2, 6, 3],
-        [3, 6, 7],
-        [0, 4, 2],
-        [2, 4, 6],
-        [1, 3, 5],
-        [3, 7, 5],
-    ];
-    Soup { vertices: (0..8).map(corner).collect(), triangles, ..Soup::default() }
-}
-
 fn flipped(mut soup: Soup) -> Soup {
     soup.triangles.iter_mut().for_each(|corners| corners.swap(0, 1));
     soup
@@ -279,7 +259,7 @@ fn defects(repairs: &Repairs) -> Vec<(&'static str, usize)> {
 
 #[test]
 fn a_sound_mesh_is_left_as_it_is() {
-    let soup = both(cuboid([0.0; 3], [9.0; 3]), cuboid([20.0, 0.0, 0.0], [29.0, 9.0, 9.0]));
+    let soup = both(Soup::cuboid([0.0; 3], [9.0; 3]), Soup::cuboid([20.0, 0.0, 0.0], [29.0, 9.0, 9.0]));
     let (mesh, repairs) = soup.clone().repaired().unwrap();
     assert_eq!(mesh.triangles(), soup.triangles);
     assert_eq!((defects(&repairs), repairs.shells, repairs.worst()), (vec![], 2, None));
@@ -288,7 +268,7 @@ fn a_sound_mesh_is_left_as_it_is() {
 
 #[test]
 fn every_defect_is_counted_with_its_place() {
-    let whole = || cuboid([0.0; 3], [9.0; 3]);
+    let whole = || Soup::cuboid([0.0; 3], [9.0; 3]);
     let seen = |soup: Soup| soup.repaired().unwrap().1;
 
     let mut soup = whole();
@@ -318,7 +298,7 @@ fn every_defect_is_counted_with_its_place() {
     assert_eq!(defects(&repairs), [("shells turned over", 1)]);
     assert!(repairs.to_string().starts_with("1 shells turned over, the first at ("));
 
-    let beside = cuboid([9.0, 0.0, 0.0], [18.0, 9.0, 9.0]);
+    let beside = Soup::cuboid([9.0, 0.0, 0.0], [18.0, 9.0, 9.0]);
     let repairs = seen(both(whole(), beside));
     assert_eq!(
         (defects(&repairs), repairs.shells),
@@ -326,7 +306,7 @@ fn every_defect_is_counted_with_its_place() {
     );
 
     // Two boxes that touch in an edge only.
-    let diagonal = cuboid([9.0, 9.0, 0.0], [18.0, 18.0, 9.0]);
+    let diagonal = Soup::cuboid([9.0, 9.0, 0.0], [18.0, 18.0, 9.0]);
     let repairs = seen(both(whole(), diagonal));
     assert_eq!((defects(&repairs), repairs.shells), (vec![("edges with more than two triangles", 1)], 2));
     assert_eq!(repairs.crowded_edges.first, [[9.0, 9.0, 4.5]]);
@@ -340,7 +320,7 @@ fn every_defect_is_counted_with_its_place() {
 
 #[test]
 fn places_are_the_first_few() {
-    let mut soup = cuboid([0.0; 3], [9.0; 3]);
+    let mut soup = Soup::cuboid([0.0; 3], [9.0; 3]);
     soup.triangles = soup.triangles.repeat(2);
     let (_, repairs) = soup.repaired().unwrap();
     assert_eq!((repairs.duplicates.count, repairs.duplicates.first.len()), (12, 8));
@@ -362,7 +342,7 @@ proptest! {
         let first = Soup { vertices: vertices.clone(), triangles: triangles.clone(), ..Soup::default() };
         let small: Vec<[f64; 3]> = vertices.iter().map(|v| [0.5 * v[0], 0.5 * v[1], 0.5 * v[2] + 1.25]).collect();
         let cavity = flipped(Soup { vertices: small, triangles: triangles.clone(), ..Soup::default() });
-        let other = cuboid(at, [at[0] + 15.0, at[1] + 15.0, at[2] + 10.0]);
+        let other = Soup::cuboid(at, [at[0] + 15.0, at[1] + 15.0, at[2] + 10.0]);
         let sound = both(both(first, cavity), other);
         let count = triangles.len();
         let mut broken = sound.clone();

@@ -25,6 +25,15 @@ const GALLERY: [Entry; 8] = [
 ];
 
 /// The names of all models, for [`by_name`].
+///
+/// # Example
+/// ```
+/// use argil_models::{Solid, by_name, names};
+/// for name in names() {
+///     let solid: Solid = by_name(name).expect("a model of that name");
+///     assert!(solid.is_closed() && solid.volume() > 0.0);
+/// }
+/// ```
 pub fn names() -> impl Iterator<Item = &'static str> {
     GALLERY.into_iter().map(|(name, _)| name)
 }

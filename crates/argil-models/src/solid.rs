@@ -6,6 +6,7 @@ use glam::DVec3;
 
 /// A body as triangles that share vertices, counter-clockwise as seen from outside; lengths in mm, z up.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Solid {
     /// Positions, mm.
     pub vertices: Vec<[f64; 3]>,

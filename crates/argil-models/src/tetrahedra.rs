@@ -51,6 +51,7 @@ const EVEN: [[usize; 4]; 12] = [
 
 /// A box in space, mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Bounds {
     /// The corner with the least coordinates.
     pub min: DVec3,

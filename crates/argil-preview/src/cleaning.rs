@@ -21,6 +21,7 @@ const OFF: f64 = 0.02;
 
 /// A place where the strand beside the model touches the model, to be cut or left.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CutPlace {
     /// Why it touches there; places of one cause are summed up together.
     pub cause: String,
@@ -41,6 +42,8 @@ pub struct CutPlace {
 
 /// What a cleaning guide shows beside the places.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct CleaningStyle {
     /// The page's title. Default `strand`.
     pub title: String,
@@ -72,7 +75,7 @@ impl Default for CleaningStyle {
 ///
 /// # Example
 /// ```
-/// # use argil_strand::{DVec2, Move, Role, Strand, StrandLayer};
+/// # use argil_preview::strand::{DVec2, Move, Role, Strand, StrandLayer};
 /// use argil_preview::{CleaningStyle, CutPlace, cleaning_html};
 /// # let moves = [(9.0, 0.0, Role::Wall), (0.0, 9.0, Role::Support), (0.0, 0.0, Role::Wall)]
 /// #     .map(|(x, y, role)| Move { to: DVec2::new(x, y), role });

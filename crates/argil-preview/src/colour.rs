@@ -5,10 +5,19 @@ use std::fmt;
 use argil_strand::Role;
 
 /// Roles from the lowest coat of paint to the uppermost: the part's surface must not be hidden.
-pub(crate) const COATS: [Role; 5] = [Role::Connection, Role::Support, Role::Fill, Role::Wall, Role::Seam];
+pub(crate) const COATS: [Role; 6] =
+    [Role::Skirt, Role::Connection, Role::Support, Role::Fill, Role::Wall, Role::Seam];
 
 /// A colour of the screen (sRGB).
+///
+/// # Example
+/// ```
+/// use argil_preview::Colour;
+/// let grey = Colour::new(0, 0, 0).towards(Colour::WHITE, 0.5);
+/// assert_eq!(grey.to_string(), "#808080");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Colour {
     /// Share of red.
     pub red: u8,
@@ -49,8 +58,10 @@ impl fmt::Display for Colour {
 /// One colour for each role.
 ///
 /// The default is terracotta for what stays in the part (fill paler than walls), slate blue for support and ochre for
-/// connections: apart in hue and in lightness, so that they also differ to most colour-blind eyes and in grey.
+/// connections, a stony grey for the skirt: apart in hue and in lightness, so that they also differ to most colour-blind eyes and in grey.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct Palette {
     /// For walls.
     pub wall: Colour,
@@ -62,6 +73,8 @@ pub struct Palette {
     pub seam: Colour,
     /// For fill.
     pub fill: Colour,
+    /// For the skirt.
+    pub skirt: Colour,
 }
 
 impl Default for Palette {
@@ -72,6 +85,7 @@ impl Default for Palette {
             connection: Colour::new(0xd9, 0xa9, 0x4e),
             seam: Colour::new(0x8a, 0x4a, 0x6b),
             fill: Colour::new(0xe0, 0xa9, 0x8e),
+            skirt: Colour::new(0xb9, 0xb2, 0xa6),
         }
     }
 }
@@ -85,6 +99,7 @@ impl Palette {
             Role::Connection => self.connection,
             Role::Seam => self.seam,
             Role::Fill => self.fill,
+            Role::Skirt => self.skirt,
             // Roles added later are drawn like what is cut away until they have a colour of their own.
             _ => self.support,
         }

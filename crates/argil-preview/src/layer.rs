@@ -13,6 +13,8 @@ const ROUND: &str = " stroke-linecap=\"round\"";
 
 /// How a layer is drawn.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct SvgStyle {
     /// Pixels to a millimetre, for programs that show the picture at its own size. Default 12.
     pub scale: f64,
@@ -56,7 +58,7 @@ impl Default for SvgStyle {
 ///
 /// # Example
 /// ```
-/// # use argil_strand::{DVec2, Move, Role, Strand, StrandLayer};
+/// # use argil_preview::strand::{DVec2, Move, Role, Strand, StrandLayer};
 /// use argil_preview::{Palette, SvgStyle, layer_svg};
 /// # let moves = [(9.0, 0.0), (0.0, 9.0), (0.0, 0.0)].map(|(x, y)| Move { to: DVec2::new(x, y), role: Role::Wall });
 /// # let layer = StrandLayer { index: 0, z: 0.5, height: 0.5, width: 1.5, moves: moves.to_vec(), supports: vec![] };
@@ -162,6 +164,9 @@ impl Picture<'_> {
             return format!("no layer {layer}");
         };
         let mut title = format!("layer {}, z {} mm", summary.index, Num(summary.z));
+        if let [first, .., last] = self.strand.rises(layer) {
+            title = format!("layer {}, z {} to {} mm", summary.index, Num(first.z), Num(last.z));
+        }
         for role in Role::ALL {
             let length = summary.lengths.of(role);
             if length > 0.0 && role != Role::Seam {

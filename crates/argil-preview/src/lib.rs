@@ -16,6 +16,7 @@ mod raster;
 mod simplify;
 mod thumbnail;
 
+pub use argil_strand as strand;
 pub use cleaning::{CleaningStyle, CutPlace, cleaning_html};
 pub use colour::{Colour, Palette};
 pub use layer::{SvgStyle, layer_svg};

@@ -1,6 +1,6 @@
 //! The strand on a grid of integers, as a page carries it.
 
-use argil_strand::{DVec2, Role, Strand};
+use argil_strand::{DVec2, Rise, Role, Strand};
 
 use crate::simplify::kept;
 
@@ -32,6 +32,10 @@ pub(crate) struct Outline {
     pub(crate) points: Vec<[u16; 2]>,
     /// The role of the move that ends at each point but the first, as a position in [`Role::ALL`].
     pub(crate) roles: Vec<u8>,
+    /// Where some layer rises, for each of the points the height of its place and of the bead that ends there, in steps of `climb`.
+    pub(crate) rises: Vec<[u16; 2]>,
+    /// mm.
+    pub(crate) climb: f64,
     /// Moves of the strand itself.
     pub(crate) moves: usize,
     /// How far a point that was left out may lie from the line that is drawn, mm; 0 when none was.
@@ -67,8 +71,19 @@ impl Outline {
         let mut roles = Vec::new();
         let mut layers = Vec::new();
         let mut at = strand.start();
-        for layer in strand.layers() {
+        let rising = (0..strand.layers().len()).any(|k| !strand.rises(k).is_empty());
+        let climb = climb(strand);
+        let lies = |rise: Rise| [rise.z, rise.height].map(|value| (value / climb).round() as u16);
+        let mut rises: Vec<[u16; 2]> = strand
+            .layers()
+            .first()
+            .filter(|_| rising)
+            .map(|layer| lies(Rise { z: layer.z, height: layer.height }))
+            .into_iter()
+            .collect();
+        for (position_of, layer) in strand.layers().iter().enumerate() {
             let before = roles.len();
+            let mut done = 0;
             for run in layer.moves.chunk_by(|a, b| a.role == b.role) {
                 let line: Vec<DVec2> = std::iter::once(at).chain(run.iter().map(|step| step.to)).collect();
                 for k in chosen(&line, tolerance).into_iter().skip(1) {
@@ -77,14 +92,20 @@ impl Outline {
                     if points.last() != Some(&place) || role == Role::Seam {
                         points.push(place);
                         roles.push(position(role));
+                        if rising {
+                            let level = Rise { z: layer.z, height: layer.height };
+                            let own = strand.rises(position_of).get(done + k - 1).copied();
+                            rises.push(lies(own.unwrap_or(level)));
+                        }
                     }
                 }
+                done += run.len();
                 at = line.last().copied().unwrap_or(at);
             }
             let (index, z, height, width) = (layer.index, layer.z, layer.height, layer.width);
             layers.push(OutlineLayer { index, z, height, width, points: roles.len() - before });
         }
-        Self { origin, step, layers, points, roles, moves: 0, off: tolerance }
+        Self { origin, step, layers, points, roles, rises, climb, moves: 0, off: tolerance }
     }
 }
 
@@ -101,6 +122,14 @@ fn grid(strand: &Strand) -> (DVec2, f64) {
     let step = (high - low).max_element() / STEPS;
     // A strand of no extent, or of one that is not representable, still has a grid.
     (low, if step > 0.0 && step.is_finite() { step } else { 1.0 })
+}
+
+/// The step by which the heights of a strand that rises are told, mm.
+fn climb(strand: &Strand) -> f64 {
+    let tops = strand.layers().iter().map(|layer| layer.z.max(layer.height));
+    let highest = strand.steps().map(|step| step.to.z.max(step.height)).chain(tops).fold(0.0, f64::max);
+    let step = highest / STEPS;
+    if step > 0.0 && step.is_finite() { step } else { 1.0 }
 }
 
 /// Position of a role in [`Role::ALL`].

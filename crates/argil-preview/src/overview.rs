@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use argil_strand::{DVec2, Step, Strand, StrandLayer};
+use argil_strand::{DVec2, DVec3, Step, Strand, StrandLayer};
 
 use crate::colour::COATS;
 use crate::markup::{Escaped, Num};
@@ -19,6 +19,8 @@ const FINENESS: f64 = 100.0;
 
 /// How the whole strand is drawn.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct ViewStyle {
     /// Direction of the view round the part, degrees: at 0 x points right and y away, positive turns the part
     /// clockwise. Default 25.
@@ -68,7 +70,7 @@ impl Default for ViewStyle {
 ///
 /// # Example
 /// ```
-/// # use argil_strand::{DVec2, Move, Role, Strand, StrandLayer};
+/// # use argil_preview::strand::{DVec2, Move, Role, Strand, StrandLayer};
 /// use argil_preview::{ViewStyle, overview_svg};
 /// # let moves = [(9.0, 0.0), (0.0, 9.0), (0.0, 0.0)].map(|(x, y)| Move { to: DVec2::new(x, y), role: Role::Wall });
 /// # let layer = StrandLayer { index: 0, z: 0.5, height: 0.5, width: 1.5, moves: moves.to_vec(), supports: vec![] };
@@ -179,7 +181,7 @@ impl<'a> View<'a> {
                 own.push(step);
             }
             for run in own.chunk_by(|a, b| a.role == b.role) {
-                self.add_run(run, tolerance, &mut strokes);
+                self.add_run(run, layer.z, tolerance, &mut strokes);
             }
             self.draw_layer(&mut svg, k, layer, &strokes);
         }
@@ -223,13 +225,17 @@ impl<'a> View<'a> {
     }
 
     /// Adds the steps of a run of one role to the strokes of their look: first the rim's, then the body's.
-    fn add_run(&self, run: &[Step], tolerance: f64, [rims, bodies]: &mut [Strokes; 2]) {
+    fn add_run(&self, run: &[Step], plane: f64, tolerance: f64, [rims, bodies]: &mut [Strokes; 2]) {
         let Some(first) = run.first() else { return };
         if !(self.style.non_model || first.role.is_model()) {
             return;
         }
+        // The step to a level layer is drawn in its plane; what rises along a layer is drawn as high as it is.
+        let rises = !self.strand.rises(first.layer).is_empty();
+        let drawn =
+            |p: DVec3| if rises { self.projection.onto(p.truncate(), p.z, plane) } else { p.truncate() };
         let points: Vec<DVec2> =
-            std::iter::once(first.from).chain(run.iter().map(|step| step.to)).map(|p| p.truncate()).collect();
+            std::iter::once(first.from).chain(run.iter().map(|step| step.to)).map(drawn).collect();
         let coat = COATS.iter().position(|&role| role == first.role).unwrap_or(0);
         let whole = |p: DVec2| (p * FINENESS).round().to_array().map(|value| value as i64);
         for pair in kept(&points, tolerance).windows(2) {

@@ -30,6 +30,7 @@ const PROGRAM: [&str; 11] = [
 
 /// A place of the print that the page lists and leads to: a finding of an audit, a contact to be cleaned.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PageMark {
     /// What it is; places of one kind are listed together.
     pub kind: String,
@@ -49,6 +50,8 @@ pub struct PageMark {
 
 /// What a page shows beside the strand.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct PageStyle {
     /// The page's title. Default `strand`.
     pub title: String,
@@ -87,11 +90,11 @@ impl Default for PageStyle {
 /// 1/65,535 of the longer side.
 ///
 /// # Complexity
-/// O(n log n) in the number of moves; the page has 7 bytes for each, and 60 kB besides.
+/// O(n log n) in the number of moves; the page has 7 bytes for each, 12 where the strand rises, and 60 kB besides.
 ///
 /// # Example
 /// ```
-/// # use argil_strand::{DVec2, Move, Role, Strand, StrandLayer};
+/// # use argil_preview::strand::{DVec2, Move, Role, Strand, StrandLayer};
 /// use argil_preview::{PageMark, PageStyle, page_html};
 /// # let moves = [(9.0, 0.0), (0.0, 9.0), (0.0, 0.0)].map(|(x, y)| Move { to: DVec2::new(x, y), role: Role::Wall });
 /// # let layer = StrandLayer { index: 0, z: 0.5, height: 0.5, width: 1.5, moves: moves.to_vec(), supports: vec![] };
@@ -178,6 +181,11 @@ impl fmt::Display for PlanData<'_> {
             write!(f, ",{},{last}]", Num(mark.measure))
         })?;
         let points: Vec<u8> = outline.points.iter().flatten().flat_map(|value| value.to_le_bytes()).collect();
+        if !outline.rises.is_empty() {
+            let rises: Vec<u8> =
+                outline.rises.iter().flatten().flat_map(|value| value.to_le_bytes()).collect();
+            write!(f, ",\"climb\":{},\"rises\":\"{}\"", outline.climb, Base64(&rises))?;
+        }
         write!(f, ",\"points\":\"{}\",\"moveRoles\":\"{}\"}}", Base64(&points), Base64(&outline.roles))
     }
 }

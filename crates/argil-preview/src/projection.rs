@@ -28,6 +28,12 @@ impl Projection {
         DVec2::new(self.right.dot(p), -(self.sin * self.away.dot(p) + self.cos * z)) * self.scale
     }
 
+    /// The point of the plane at height `plane` that falls on the paper where `p` does at height `z`.
+    pub(crate) fn onto(&self, p: DVec2, z: f64, plane: f64) -> DVec2 {
+        // The view is never quite level, so the sine is not 0.
+        p + self.away * ((z - plane) * self.cos / self.sin)
+    }
+
     /// The six numbers of the SVG matrix that lays a plane at height z onto the paper.
     ///
     /// A stroke drawn through it is a ribbon that lies flat in that plane, as wide as it looks from the eye in every
@@ -59,6 +65,14 @@ mod tests {
         assert!((view.place(DVec2::X, 0.0) - DVec2::X * 2.0).length() < 1e-12);
         assert!(view.place(DVec2::ZERO, 1.0).y < 0.0);
         assert!(view.place(DVec2::Y, 0.0).y < 0.0);
+    }
+
+    #[test]
+    fn a_point_above_a_plane_has_its_place_in_it() {
+        let view = Projection::new(33.0, 41.0, 7.0);
+        let p = DVec2::new(3.0, -8.0);
+        assert!((view.place(view.onto(p, 12.5, 12.0), 12.0) - view.place(p, 12.5)).length() < 1e-9);
+        assert_eq!(view.onto(p, 12.0, 12.0), p);
     }
 
     #[test]

@@ -78,9 +78,16 @@ fn every_role_has_its_colour() {
     let palette = Palette::default();
     let found: Vec<_> =
         all_paths(&layer_svg(&strand, 1, &SvgStyle::default())).iter().filter_map(stroke_colour).collect();
-    for role in Role::ALL {
+    for role in Role::ALL.into_iter().filter(|&role| role != Role::Skirt) {
         assert!(found.contains(&palette.of(role).to_string()), "{role}");
     }
+    // Skirt lies on the lowest layer only, before its cycle.
+    let (start, mut layers) = (strand.start(), strand.into_layers());
+    layers[0].moves.insert(0, Move { to: start, role: Role::Skirt });
+    let skirted = Strand::new(start - 5.0, layers).unwrap();
+    let found: Vec<_> =
+        all_paths(&layer_svg(&skirted, 0, &SvgStyle::default())).iter().filter_map(stroke_colour).collect();
+    assert!(found.contains(&palette.of(Role::Skirt).to_string()));
 }
 
 /// The colour at a place of a layer's picture, given in mm.

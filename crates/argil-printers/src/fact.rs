@@ -9,6 +9,18 @@ use crate::ProfileError;
 /// A value with its source, or the statement that none is known.
 ///
 /// In TOML: `feed = { value = 25, source = "cura", note = "10 to 40" }` or `feed = { unknown = "no source gives it" }`.
+///
+/// # Example
+/// ```
+/// use argil_printers::{Fact, Material, materials};
+/// for (name, _) in materials() {
+///     let paste = Material::bundled(name).expect("it is bundled")?;
+///     let feed: &Fact<f64> = &paste.feed;
+///     assert!(feed.origin().is_some() || feed.unknown().is_some());
+///     assert_eq!(feed.value().is_some(), feed.origin().is_some());
+/// }
+/// # Ok::<(), argil_printers::ProfileError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged, deny_unknown_fields)]
 pub enum Fact<T> {

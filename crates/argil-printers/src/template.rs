@@ -24,6 +24,7 @@ pub fn render(template: &str, values: &[(&str, String)]) -> Result<String, Profi
         text.push_str(before);
         let open = || ProfileError::Brace { at: brace.lines().next().unwrap_or_default().to_owned() };
         if brace.starts_with("{{") || brace.starts_with("}}") {
+            // It begins with two braces, each one byte long.
             text.push_str(&brace[..1]);
             rest = &brace[2..];
             continue;

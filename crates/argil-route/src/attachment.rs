@@ -1,6 +1,6 @@
 //! Places on walls where strands leave and join them.
 
-use argil_curve::{ClosedCurve, DVec2};
+use argil_curve::{ClosedCurve, DVec2, on_grid};
 
 use crate::spine::Spines;
 
@@ -110,7 +110,7 @@ pub(crate) fn attach(curve: &ClosedCurve, arcs: &[f64], outside: &[bool], grid: 
                 at[k] = if segment + 1 == curve.segment_count() { 0 } else { points.len() };
             } else {
                 at[k] = points.len();
-                points.push(((place + 2.0 * grid * push) / grid).round() * grid);
+                points.push(on_grid(place + 2.0 * grid * push, grid));
             }
         }
     }

@@ -4,6 +4,8 @@ use argil_curve::DVec2;
 
 /// What a stretch of the cycle is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Leg {
     /// It prints a wall.
     Wall,
@@ -20,7 +22,20 @@ pub enum Leg {
 ///
 /// Invariants: every wall is printed exactly once, whole, and its vertices are bit-identical to the
 /// input's; no two stretches cross, neither properly nor at a shared vertex; each demand is carried by a vertex.
+///
+/// # Example
+/// ```
+/// use argil_route::{Cycle, DVec2, LayerInput, Leg, RouteSettings, Router, Wall};
+/// let square = [(0.0, 0.0), (9.0, 0.0), (9.0, 9.0), (0.0, 9.0)].map(DVec2::from);
+/// let walls = [Wall { points: &square, parent: None }];
+/// let layer = LayerInput { walls: &walls, demands: &[], safeguard: &[], above: None, barred: &[] };
+/// // A layer that is one wall and nothing else is that wall.
+/// let cycle: Cycle = Router::new(RouteSettings::for_width(1.5))?.cycle(&layer)?;
+/// assert_eq!((cycle.length_of(Leg::Wall), cycle.length_of(Leg::Support), cycle.roots), (36.0, 0.0, 0));
+/// # Ok::<(), argil_route::RouteError>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Cycle {
     /// The vertices, mm.
     pub points: Vec<DVec2>,
@@ -49,10 +64,7 @@ impl Cycle {
     /// Length of all stretches with the given purpose, mm.
     #[must_use]
     pub fn length_of(&self, leg: Leg) -> f64 {
-        let n = self.points.len();
-        (0..n)
-            .filter(|&k| self.legs[k] == leg)
-            .map(|k| self.points[k].distance(self.points[(k + 1) % n]))
-            .sum()
+        let ends = self.points.iter().zip(self.points.iter().cycle().skip(1));
+        ends.zip(&self.legs).filter(|(_, of)| **of == leg).map(|((from, to), _)| from.distance(*to)).sum()
     }
 }

@@ -4,9 +4,10 @@
 //! same vertex come to lie beside each other in the order that the circuit gives them. Nothing crosses as long as the
 //! offsets are small against the angles and edges round the vertex; where something does, after rounding to the
 //! grid, the offsets of the vertices concerned are halved and in the end dropped: strands that
-//! coincide touch, but do not cross.
+//! coincide touch, but do not cross. Where a channel is narrower than the lanes all along, a vertex without offset crosses to the next one
+//! with it, so that offsets are dropped along the strand, farther each time.
 
-use argil_curve::{DVec2, self_crossings};
+use argil_curve::{DVec2, on_grid, self_crossings};
 
 use crate::circuit::{Circuit, Visit};
 use crate::cycle::{Cycle, Leg};
@@ -14,6 +15,9 @@ use crate::multigraph::{EdgeEnd, Multigraph};
 
 /// Rounds of halving before an offset is dropped.
 const HALVINGS: usize = 5;
+
+/// Rounds in which offsets are dropped along the strand, twice as far each time: enough for any strand that is held.
+const WIDENINGS: usize = 32;
 
 /// A vertex of the drawn cycle.
 #[derive(Clone, Copy, Debug)]
@@ -31,7 +35,7 @@ pub(crate) fn draw(graph: &Multigraph, circuit: &Circuit, lane: f64, spacing: f6
     let carrier = carriers(graph, circuit);
     let mut offsets = vec![lane; graph.positions.len()];
     let mut drawn = polyline(graph, circuit, &carrier, &offsets, grid);
-    for round in 0..=2 * HALVINGS {
+    for round in 0..=2 * HALVINGS + WIDENINGS {
         let points: Vec<DVec2> = drawn.iter().map(|d| d.at).collect();
         let crossings = self_crossings(&points);
         if crossings.is_empty() {
@@ -40,7 +44,9 @@ pub(crate) fn draw(graph: &Multigraph, circuit: &Circuit, lane: f64, spacing: f6
         let n = drawn.len();
         let mut shrunk = false;
         for crossing in crossings {
-            for k in [crossing.first, crossing.first + 1, crossing.second, crossing.second + 1] {
+            let reach = round.checked_sub(2 * HALVINGS + 1).map_or(0, |further| n.min(1 << further));
+            let about = |k: usize| k + n - reach..=k + n + 1 + reach;
+            for k in about(crossing.first).chain(about(crossing.second)) {
                 if let Some(vertex) = drawn[k % n].vertex {
                     let offset = &mut offsets[vertex as usize];
                     shrunk |= *offset > 0.0;
@@ -102,10 +108,6 @@ fn sector(rotation: &[EdgeEnd], visit: Visit) -> Sector {
     }
 }
 
-pub(crate) fn rounded(p: DVec2, grid: f64) -> DVec2 {
-    (p / grid).round() * grid
-}
-
 fn polyline(
     graph: &Multigraph,
     circuit: &Circuit,
@@ -129,7 +131,7 @@ fn polyline(
         }
         let middle = corner.len() / 2;
         for (q, &at) in corner.iter().enumerate() {
-            let at = if fixed { at } else { rounded(at, grid) };
+            let at = if fixed { at } else { on_grid(at, grid) };
             let carries = if carries && q == middle { graph.demand[vertex as usize] } else { None };
             push(&mut drawn, Drawn { at, vertex: Some(vertex), fixed, carries, leg: outgoing.leg });
         }
@@ -245,7 +247,7 @@ pub(crate) fn subdivided(drawn: &[Drawn], spacing: f64, grid: f64, roots: usize)
         }
         let pieces = (d.at.distance(next) / spacing).ceil().clamp(1.0, 1e6) as usize;
         for piece in 1..pieces {
-            let at = rounded(d.at.lerp(next, piece as f64 / pieces as f64), grid);
+            let at = on_grid(d.at.lerp(next, piece as f64 / pieces as f64), grid);
             if cycle.points.last() != Some(&at) && at != next {
                 cycle.points.push(at);
                 cycle.fixed.push(false);

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use argil_curve::{ClosedCurve, DVec2, SegmentIndex};
+use argil_curve::{ClosedCurve, DVec2, SegmentIndex, on_grid};
 
 use crate::attachment::Attachments;
 use crate::circuit::euler_circuit;
@@ -32,6 +32,7 @@ pub struct Wall<'a> {
 
 /// A point that the cycle has to pass, such as a support point of the layer above.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Demand {
     /// Where.
     pub position: DVec2,
@@ -225,7 +226,7 @@ pub(crate) fn curves(walls: &[Wall<'_>]) -> Result<Vec<ClosedCurve>, RouteError>
 pub(crate) fn clear_of(walls: &SegmentIndex, demand: &Demand, s: &RouteSettings) -> DVec2 {
     let keep = 0.05 * s.width;
     let place = demand.position;
-    let on_grid = |p: DVec2| (p / s.grid).round() * s.grid;
+    let on_grid = |p: DVec2| on_grid(p, s.grid);
     let Some(near) = walls.nearest_within(place, keep) else { return on_grid(place) };
     let anchor = demand.anchors.first().copied().unwrap_or(place);
     let away = [place - near.point, anchor - near.point, DVec2::X]
@@ -285,7 +286,7 @@ fn steiner(view: &RegionView<'_>, safeguard: &[Vec<DVec2>], demands: &[DVec2]) -
     if view.region.outer.is_none() {
         places.extend(frame(&places, view, demands));
     }
-    places.into_iter().map(|p| (p / s.grid).round() * s.grid).collect()
+    places.into_iter().map(|p| on_grid(p, s.grid)).collect()
 }
 
 /// A frame round everything, so that a path leads round any body.
@@ -330,7 +331,7 @@ pub(crate) fn dot(demands: &[Demand], s: &RouteSettings) -> Cycle {
     let centre = demands.first().map_or(DVec2::ZERO, |d| d.position);
     let corners =
         (0..6).map(|k| centre + radius * DVec2::from_angle(f64::from(k) * std::f64::consts::FRAC_PI_3));
-    let mut cycle = Cycle::of_wall(&corners.map(|p| (p / s.grid).round() * s.grid).collect::<Vec<_>>());
+    let mut cycle = Cycle::of_wall(&corners.map(|p| on_grid(p, s.grid)).collect::<Vec<_>>());
     cycle.legs.fill(Leg::Support);
     cycle.carriers = (0..demands.len()).map(|d| (0, d)).collect();
     cycle

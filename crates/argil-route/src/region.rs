@@ -6,6 +6,7 @@ use crate::{RouteError, Wall};
 
 /// The free space inside one wall (or outside of all), with what lies in it.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Region {
     /// The wall around it; `None` for the unbounded region.
     pub outer: Option<usize>,
@@ -21,15 +22,33 @@ pub struct Region {
 /// Regions without demands and children are left out, except that they matter to nobody.
 ///
 /// # Errors
-/// [`RouteError::Parent`] when a parent does not exist or parents form a ring.
+/// [`RouteError::Parent`] when a parent does not exist or parents form a ring, [`RouteError::Wall`] when there is not one
+/// curve a wall.
 ///
 /// # Complexity
 /// O(walls · demands · points of a wall).
+///
+/// # Example
+/// ```
+/// use argil_route::{ClosedCurve, DVec2, Wall, regions};
+/// let outer = [(0.0, 0.0), (9.0, 0.0), (9.0, 9.0), (0.0, 9.0)].map(DVec2::from);
+/// let hole = [(3.0, 3.0), (3.0, 6.0), (6.0, 6.0), (6.0, 3.0)].map(DVec2::from);
+/// let walls = [Wall { points: &outer, parent: None }, Wall { points: &hole, parent: Some(0) }];
+/// let curves = [ClosedCurve::new(outer.to_vec())?, ClosedCurve::new(hole.to_vec())?];
+/// let found = regions(&walls, &curves, &[DVec2::splat(4.5)])?;
+/// // All round, between the two, and in the hole.
+/// assert_eq!(found.iter().map(|region| region.outer).collect::<Vec<_>>(), [None, Some(0), Some(1)]);
+/// assert_eq!(found[2].demands, [0]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn regions(
     walls: &[Wall<'_>],
     curves: &[ClosedCurve],
     demands: &[DVec2],
 ) -> Result<Vec<Region>, RouteError> {
+    if curves.len() != walls.len() {
+        return Err(RouteError::Wall { wall: curves.len().min(walls.len()) });
+    }
     let depth = depths(walls)?;
     let mut deepest_first: Vec<usize> = (0..walls.len()).collect();
     deepest_first.sort_by_key(|&w| (std::cmp::Reverse(depth[w]), w));

@@ -1,6 +1,6 @@
 //! Demands moved within their slack towards the tours that visit them.
 
-use argil_curve::DVec2;
+use argil_curve::{DVec2, on_grid};
 
 use crate::RouteError;
 use crate::discs::Discs;
@@ -69,6 +69,6 @@ impl RegionView<'_> {
         };
         discs.relax(&mut points, neighbours);
         points.truncate(neighbours.len());
-        points.into_iter().map(|p| (p / s.grid).round() * s.grid).collect()
+        points.into_iter().map(|p| on_grid(p, s.grid)).collect()
     }
 }

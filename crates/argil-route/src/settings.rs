@@ -6,6 +6,8 @@ use crate::RouteError;
 
 /// How a layer is routed. Lengths are in mm unless they say *in w*, the bead width.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct RouteSettings {
     /// Bead width w, mm. Everything else scales with it.
     pub width: f64,

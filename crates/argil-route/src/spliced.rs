@@ -1,13 +1,13 @@
 //! The paper's own path planning: one connection point a wall, one tour a region, walls spliced in.
 
-use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex};
+use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex, on_grid};
 use argil_graph::{DistanceMatrix, FreeSpace, Nodes, PathGraph};
 use argil_tour::{Metric, shortest_tour};
 
 use crate::attachment::attach;
 use crate::cycle::{Cycle, Leg};
 use crate::joint::closest;
-use crate::lane::{Drawn, push, rounded, subdivided};
+use crate::lane::{Drawn, push, subdivided};
 use crate::layer::{clear_of, curves, dot};
 use crate::{LayerInput, Region, RouteError, RouteSettings, regions};
 
@@ -107,9 +107,9 @@ impl SplicedRouter {
     ///
     /// # Example
     /// ```
-    /// use argil_route::{Demand, LayerInput, Leg, RouteSettings, SplicedRouter, Wall};
-    /// let square = [(0.0, 0.0), (6.0, 0.0), (6.0, 6.0), (0.0, 6.0)].map(argil_curve::DVec2::from);
-    /// let demand = Demand { position: argil_curve::DVec2::new(9.0, 3.0), anchors: Vec::new() };
+    /// use argil_route::{DVec2, Demand, LayerInput, Leg, RouteSettings, SplicedRouter, Wall};
+    /// let square = [(0.0, 0.0), (6.0, 0.0), (6.0, 6.0), (0.0, 6.0)].map(DVec2::from);
+    /// let demand = Demand { position: DVec2::new(9.0, 3.0), anchors: Vec::new() };
     /// let layer = LayerInput {
     ///     walls: &[Wall { points: &square, parent: None }],
     ///     demands: &[demand],
@@ -259,7 +259,7 @@ impl Site<'_> {
             } else {
                 let path = graph.path(from, to).ok_or_else(|| unreachable(to))?;
                 let inner = path.get(1..path.len().saturating_sub(1)).unwrap_or_default();
-                inner.iter().map(|&v| rounded(graph.position(v), s.grid)).collect()
+                inner.iter().map(|&v| on_grid(graph.position(v), s.grid)).collect()
             };
             hops.push(Hop { stop: stops[here].1, bends });
         }

@@ -83,8 +83,8 @@ impl Metric for TourDistances {
 ///     }
 /// }
 ///
-/// use argil_route::{Demand, LayerInput, RouteSettings, Router, Wall};
-/// let square = [(0.0, 0.0), (9.0, 0.0), (9.0, 9.0), (0.0, 9.0)].map(argil_curve::DVec2::from);
+/// use argil_route::{DVec2, Demand, LayerInput, RouteSettings, Router, Wall};
+/// let square = [(0.0, 0.0), (9.0, 0.0), (9.0, 9.0), (0.0, 9.0)].map(DVec2::from);
 /// let demands = [(14.0, 2.0), (14.0, 8.0)].map(|p| Demand { position: p.into(), anchors: Vec::new() });
 /// let walls = [Wall { points: &square, parent: None }];
 /// let layer = LayerInput { walls: &walls, demands: &demands, safeguard: &[], above: None, barred: &[] };

@@ -10,6 +10,9 @@ use rayon::prelude::*;
 /// cannot put them on its grid.
 const FARTHEST: f64 = 1e9;
 
+/// Layers between two questions whether to go on.
+const BATCH: usize = 16;
+
 /// The safeguard of each layer, bottom first (Sec. 3.4).
 ///
 /// `outer_walls` holds the filled outermost wall loops of each layer, bottom first; holes in
@@ -43,17 +46,44 @@ const FARTHEST: f64 = 1e9;
 /// ```
 #[must_use]
 pub fn safeguards(outer_walls: &[MultiPolygon<f64>], settings: &SafeguardSettings) -> Vec<MultiPolygon<f64>> {
+    // Nobody ends it, so that there are safeguards.
+    safeguards_while(outer_walls, settings, &mut || true).unwrap_or_default()
+}
+
+/// The same for as long as `goes_on` says so: it is asked before every sixteen layers. `None` where it has ended the work.
+///
+/// # Complexity
+/// That of [`safeguards`].
+///
+/// # Example
+/// ```
+/// use argil_safeguard::{safeguards_while, SafeguardSettings};
+/// # use geo_types::MultiPolygon;
+/// let layers = vec![MultiPolygon(vec![]); 40];
+/// assert_eq!(safeguards_while(&layers, &SafeguardSettings::for_width(1.5), &mut || false), None);
+/// ```
+#[must_use]
+pub fn safeguards_while(
+    outer_walls: &[MultiPolygon<f64>],
+    settings: &SafeguardSettings,
+    goes_on: &mut dyn FnMut() -> bool,
+) -> Option<Vec<MultiPolygon<f64>>> {
     let length = |value: f64| if value.is_finite() { value.clamp(0.0, FARTHEST) } else { 0.0 };
     let settings = SafeguardSettings { dilation: length(settings.dilation), shrink: length(settings.shrink) };
     let tolerance = settings.tolerance();
     let mut below = MultiPolygon(Vec::new());
     let mut result = Vec::with_capacity(outer_walls.len());
-    for own in all_dilated(outer_walls, settings.dilation, tolerance) {
-        let shrunk = simplified(&offset(&below, tolerance - settings.shrink, 0.5 * tolerance), tolerance);
-        below = united(&shrunk, &own);
-        result.push(below.clone());
+    for batch in outer_walls.chunks(BATCH) {
+        if !goes_on() {
+            return None;
+        }
+        for own in all_dilated(batch, settings.dilation, tolerance) {
+            let shrunk = simplified(&offset(&below, tolerance - settings.shrink, 0.5 * tolerance), tolerance);
+            below = united(&shrunk, &own);
+            result.push(below.clone());
+        }
     }
-    result
+    Some(result)
 }
 
 /// The dilated walls of every layer. None depends on another layer, as the envelope itself does.

@@ -1,5 +1,7 @@
 /// How wide the safeguard is and how fast it may shrink on its way up.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct SafeguardSettings {
     /// How far the outer walls are dilated, in millimetres: one bead width by default (the paper
     /// does not say). More keeps support farther from the surface and makes it longer.

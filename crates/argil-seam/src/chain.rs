@@ -11,6 +11,8 @@ const TRUSTING_ROUNDS: usize = 32;
 
 /// The limits of a chain of starts. Lengths in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct SeamSettings {
     /// `ε_across` of the paste: a start lies no further than this from the cycle below. Smaller is safer and
     /// may leave no chain.
@@ -113,6 +115,19 @@ pub fn seam_chain(
 ///
 /// # Complexity
 /// As [`seam_chain`].
+///
+/// # Example
+/// ```
+/// use argil_seam::{ClosedCurve, DVec2, SeamSettings, seam_chain_among};
+/// let square = [(0.0, 0.0), (9.0, 0.0), (9.0, 9.0), (0.0, 9.0)].map(DVec2::from).to_vec();
+/// let tower = vec![ClosedCurve::new(square)?; 3];
+/// // Nothing is as cheap as what was known before.
+/// let known = 7.0;
+/// let cost = |layer: usize, start: DVec2| tower[layer].point_at(known).distance(start);
+/// let starts = seam_chain_among(&tower, &[known; 3], &SeamSettings::for_width(1.5), &cost)?;
+/// assert_eq!(starts, [known; 3]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn seam_chain_among(
     cycles: &[ClosedCurve],
     also: &[f64],

@@ -12,7 +12,7 @@ mod nearest;
 mod plan;
 mod step;
 
-pub use argil_curve::{ClosedCurve, DVec2};
+pub use argil_curve::{ClosedCurve, DVec2, Segment};
 pub use chain::{SeamSettings, seam_chain, seam_chain_among};
 pub use error::SeamError;
 pub use nearest::nearest_chain;

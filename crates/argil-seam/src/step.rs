@@ -33,6 +33,17 @@ pub(crate) fn sharp_turns(arriving: DVec2, step: DVec2, leaving: DVec2) -> u8 {
 ///
 /// # Complexity
 /// O(n) for n segments.
+///
+/// # Example
+/// ```
+/// use argil_seam::{ClosedCurve, DVec2, Segment, is_clear};
+/// let square = [(0.0, 0.0), (9.0, 0.0), (9.0, 9.0), (0.0, 9.0)].map(DVec2::from).to_vec();
+/// let cycle = ClosedCurve::new(square)?;
+/// let end = DVec2::new(4.0, 0.0); // at arc length 4
+/// assert!(is_clear(&Segment::new(DVec2::new(4.0, -1.0), end), 4.0, &cycle));
+/// assert!(!is_clear(&Segment::new(DVec2::new(4.0, 12.0), end), 4.0, &cycle)); // through the upper side
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn is_clear(step: &Segment, s: f64, cycle: &ClosedCurve) -> bool {
     let low = step.start.min(step.end) - TOUCH;

@@ -1,12 +1,14 @@
 //! Lanes of a fill that give way to what the layer above needs.
 
-use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex};
+use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex, on_grid};
 
 use crate::ModelLoop;
 use crate::apart::is_apart;
 
 /// How lanes give way.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Bumps {
     /// Bead width w, mm.
     pub width: f64,
@@ -157,7 +159,7 @@ impl Lanes<'_> {
         let curve = self.curves[number].as_ref()?;
         let near = curve.on_segment(own, need);
         let share = ((distance - 0.5 * within) / distance).min(most / distance);
-        let on_grid = |p: DVec2| (p / grid).round() * grid;
+        let on_grid = |p: DVec2| on_grid(p, grid);
         let tip = on_grid(near.point.lerp(need, share));
         HALVES.iter().find_map(|half| {
             let half = half * width;

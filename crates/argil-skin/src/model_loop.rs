@@ -4,6 +4,7 @@ use argil_curve::{ClosedCurve, DVec2};
 
 /// A closed path of the model.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ModelLoop {
     /// Its vertices in mm, without repeating the first at the end.
     pub points: Vec<DVec2>,

@@ -26,7 +26,7 @@ const BETWEEN: f64 = 0.3;
 const LEFT_OUT: [f64; 3] = [0.3, 0.4, 0.5];
 
 /// One layer of the model.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Section<'a> {
     /// What is solid.
     pub outline: &'a MultiPolygon<f64>,
@@ -36,6 +36,7 @@ pub struct Section<'a> {
 
 /// A layer's walls and fill.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Filled {
     /// The loops: the walls, bit by bit and in their order, then the fill. None crosses itself or another.
     pub loops: Vec<ModelLoop>,
@@ -54,7 +55,7 @@ impl Section<'_> {
     /// `avoid` are places to keep joints away from, such as [`Filled::joints`] of the layer below.
     ///
     /// # Errors
-    /// Those of [`fill`].
+    /// Those of [`fill`]; [`FillError::Option`] for lanes that are no distance.
     ///
     /// # Complexity
     /// That of [`fill`], and a few offsets of the zone.
@@ -82,10 +83,14 @@ impl Section<'_> {
         let mut filled = Filled { loops: self.walls.iter().map(wall).collect(), ..Filled::default() };
         let room = self.room(zone, options, width);
         if !room.0.is_empty() {
-            let made = simple_fill(&room, &options.fill, avoid)?;
+            let lanes = options.laid();
+            let made = simple_fill(&room, &lanes, avoid)?;
             filled.joints = made.joints.iter().map(Joint::middle).collect();
+            // A bead covers more than a lane that is narrower.
+            let covered = width - lanes.width;
+            let narrowed = |disc: BareDisc| BareDisc { diameter: disc.diameter - covered, ..disc };
+            let listed = made.bare.into_iter().map(narrowed).filter(|disc| disc.diameter > 0.0);
             // Where there is no lane to measure from, the edge of the room is where the next bead or the next solid begins.
-            let listed = made.bare.into_iter();
             let bounded = |disc: BareDisc| BareDisc {
                 diameter: disc.diameter.min(2.0 * edge_distance(&room, disc.centre)),
                 ..disc
@@ -102,14 +107,24 @@ impl Section<'_> {
         Ok(filled)
     }
 
+    /// What the walls leave of the layer.
+    pub(crate) fn inside(&self, options: &SkinOptions, width: f64) -> MultiPolygon<f64> {
+        let outline = plainer(self.outline, width);
+        let walls = options.walls as f64;
+        if options.walls == 0 { outline } else { grown(&outline, -walls * width, width) }
+    }
+
     /// What of a zone the walls leave to be filled.
-    fn room(&self, zone: &MultiPolygon<f64>, options: &SkinOptions, width: f64) -> MultiPolygon<f64> {
+    pub(crate) fn room(
+        &self,
+        zone: &MultiPolygon<f64>,
+        options: &SkinOptions,
+        width: f64,
+    ) -> MultiPolygon<f64> {
         if zone.0.is_empty() {
             return MultiPolygon(Vec::new());
         }
-        let outline = plainer(self.outline, width);
-        let walls = options.walls as f64;
-        let inside = if options.walls == 0 { outline } else { grown(&outline, -walls * width, width) };
+        let inside = self.inside(options, width);
         let room = opened(&cleaned(inside.intersection(zone), width), SLIGHT * width, width);
         let under = grown(&narrow(&room, width), UNDER * width, width).intersection(&inside);
         let room = if under.0.is_empty() { room } else { room.union(&under) };

@@ -16,6 +16,12 @@ pub enum SliceError {
     /// No wall was asked for, so there would be no path.
     #[error("at least one wall is needed")]
     NoWalls,
+    /// More than one wall was asked for of a sheet, which is itself the path of its only one.
+    #[error("a sheet without thickness has one wall, not {walls}")]
+    SheetWalls {
+        /// How many were asked for.
+        walls: usize,
+    },
     /// The output grid is too coarse for the bead: loops could not be kept apart on it.
     #[error("an output grid of {grid} mm is too coarse for a bead of {width} mm (at most {limit} mm)")]
     CoarseGrid {
@@ -86,6 +92,36 @@ pub enum SliceError {
         /// Distance in millimetres between its ends.
         gap: f64,
         /// How many more open pieces there are.
+        others: usize,
+    },
+    /// A surface of the mesh is inside out in a way that could not be put right; given by [`check_closed`](crate::check_closed) alone.
+    #[error(
+        "layer {layer}, near ({:.2}, {:.2}): a surface is inside out and meets others; {area:.2} mm² of the outline may be a hole or solid{}",
+        at.x, at.y, and_others(*others)
+    )]
+    InsideOut {
+        /// The layer with the largest such area.
+        layer: usize,
+        /// A point of it or near it.
+        at: DVec2,
+        /// The area in square millimetres.
+        area: f64,
+        /// How many more layers have one.
+        others: usize,
+    },
+    /// Bodies overlap; given by [`check_closed`](crate::check_closed) alone, where they are not to be made one.
+    #[error(
+        "layer {layer}, near ({:.2}, {:.2}): bodies overlap in {area:.2} mm² of the outline{}",
+        at.x, at.y, and_others(*others)
+    )]
+    Overlap {
+        /// The layer with the largest overlap.
+        layer: usize,
+        /// A point of it.
+        at: DVec2,
+        /// Its area in square millimetres.
+        area: f64,
+        /// How many more layers have one.
         others: usize,
     },
     /// The mesh has a hole that was closed; given by [`check_closed`](crate::check_closed) alone, where that is not wanted.

@@ -2,7 +2,7 @@
 
 use crate::SliceSettings;
 use crate::layer::Loss;
-use crate::region;
+use crate::region::{self, ring_points};
 use crate::spine::{is_bare_somewhere, sides};
 use crate::thin::middle;
 use argil_curve::SegmentIndex;
@@ -13,6 +13,9 @@ use glam::DVec2;
 /// A part of an outline that no bead reaches is reported from this area on, in w²: rounded
 /// corners are smaller (0.05 w² at a right angle).
 const BRANCH_AREA: f64 = 0.1;
+
+/// So is one that has a point this far from every loop, in w: a sliver that is too thin for any spine.
+const BRANCH_REACH: f64 = 0.74;
 
 /// What the bead may fall short of an outline by without it being a lost branch, in w.
 const BRANCH_SLACK: f64 = 1.0 / 30.0;
@@ -52,7 +55,7 @@ impl Fit<'_> {
             }));
         }
         if is_bare_somewhere(self.outline, &index, width) {
-            losses.extend(self.bare_parts(width));
+            losses.extend(self.bare_parts(&index, width));
         }
         losses
     }
@@ -63,8 +66,8 @@ impl Fit<'_> {
         self.rings.iter().copied().flatten().map(|&p| outline.distance(p)).fold(0.0, f64::max)
     }
 
-    /// The parts that lie farther from the loops than the bead reaches.
-    fn bare_parts(&self, width: f64) -> Vec<Loss> {
+    /// The parts that lie farther from the loops, which `index` has, than the bead reaches.
+    fn bare_parts(&self, index: &SegmentIndex, width: f64) -> Vec<Loss> {
         let reach = (0.5 + BRANCH_SLACK) * width;
         let chord = 0.5 * BRANCH_SLACK * width;
         let lines: Vec<Vec<DVec2>> =
@@ -74,9 +77,15 @@ impl Fit<'_> {
         let missed = MultiPolygon(vec![self.original.clone()]).difference(&covered);
         missed
             .iter()
-            .map(|part| (part, part.unsigned_area()))
-            .filter(|&(_, area)| area > BRANCH_AREA * width * width)
-            .map(|(part, area)| Loss::Branch { layer: self.layer, at: inner_point(part), area })
+            .filter_map(|part| {
+                let area = part.unsigned_area();
+                let bare = ring_points(part.exterior()).into_iter().map(|p| (index.distance(p), p));
+                let (reach, farthest) = bare.max_by(|a, b| a.0.total_cmp(&b.0))?;
+                let is_far = reach > BRANCH_REACH * width;
+                let at = if is_far { farthest } else { inner_point(part) };
+                let counts = is_far || area > BRANCH_AREA * width * width;
+                counts.then_some(Loss::Branch { layer: self.layer, at, area })
+            })
             .collect()
     }
 }

@@ -3,6 +3,7 @@ use glam::DVec2;
 
 /// One layer: the cut through the solid and the wall paths inside it.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Layer {
     /// Number of the layer, 0 at the bottom.
     pub index: usize,
@@ -11,9 +12,11 @@ pub struct Layer {
     /// Height in millimetres at which the nozzle prints it: the top of the layer.
     pub print_z: f64,
     /// The region that is solid at `cut_z`: disjoint polygons, exteriors counter-clockwise.
+    #[cfg_attr(feature = "serde", serde(with = "crate::rings"))]
     pub outline: MultiPolygon<f64>,
     /// Where a bead fits: the outline inset by w/2. Its rings are the first walls, but for the lines there and back along
-    /// what is too thin.
+    /// what is too thin. Of a sheet ([`SliceSettings::surface`](crate::SliceSettings::surface)) it is what its section goes round.
+    #[cfg_attr(feature = "serde", serde(with = "crate::rings"))]
     pub walled: MultiPolygon<f64>,
     /// The wall loops: simple, pairwise disjoint, on the output grid.
     pub walls: Vec<WallLoop>,
@@ -23,6 +26,7 @@ pub struct Layer {
 
 /// One closed wall path.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct WallLoop {
     /// The vertices in millimetres, on the output grid, without repeating the first at the end.
     /// Counter-clockwise where the loop runs round solid, clockwise (`hole`) where it runs
@@ -42,7 +46,19 @@ pub struct WallLoop {
 }
 
 /// Something of the model that the walls of a layer do not print as it is.
+///
+/// # Example
+/// ```
+/// use argil_slice::{Loss, SliceSettings, mesh::Mesh, slice};
+/// // A sheet of a tenth of a millimetre.
+/// let layers = slice(&Mesh::cuboid([0.0; 3], [9.0, 0.1, 2.0])?, &SliceSettings::default())?;
+/// assert!(matches!(layers[0].losses[..], [Loss::Vanished { layer: 0, .. }]));
+/// assert!((0.0..=0.1).contains(&layers[0].losses[0].at().y));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(tag = "kind", rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Loss {
     /// The cut through the mesh has an end: the mesh has a hole here that is too wide to close without guessing.
@@ -73,6 +89,24 @@ pub enum Loss {
         at: DVec2,
         /// Its length in millimetres.
         length: f64,
+    },
+    /// Contours that overlap were made one: bodies that overlap, or lie inside each other.
+    Overlap {
+        /// The layer.
+        layer: usize,
+        /// A point of it.
+        at: DVec2,
+        /// The area in square millimetres that is solid more than once.
+        area: f64,
+    },
+    /// A surface is inside out in a way that could not be put right: where it overlaps another body, there is a hole.
+    InsideOut {
+        /// The layer.
+        layer: usize,
+        /// A point of it or near it.
+        at: DVec2,
+        /// The area in square millimetres.
+        area: f64,
     },
     /// An outline is everywhere thinner than a bead: its wall runs along the middle, less than w/2 inside, and
     /// prints it wider than it is.
@@ -114,6 +148,15 @@ pub enum Loss {
         /// The part's area in square millimetres.
         area: f64,
     },
+    /// The section of a sheet has two ends: it is printed there and back, as two lanes in one bead.
+    OpenSheet {
+        /// The layer.
+        layer: usize,
+        /// A point on it.
+        at: DVec2,
+        /// Its length in millimetres.
+        length: f64,
+    },
     /// Wall loops that would touch themselves or others after rounding, and were left out.
     Unsound {
         /// The layer.
@@ -133,10 +176,13 @@ impl Loss {
             Self::OpenOutline { layer, .. }
             | Self::ClosedGap { layer, .. }
             | Self::Stray { layer, .. }
+            | Self::Overlap { layer, .. }
+            | Self::InsideOut { layer, .. }
             | Self::Thin { layer, .. }
             | Self::Vanished { layer, .. }
             | Self::Narrow { layer, .. }
             | Self::Branch { layer, .. }
+            | Self::OpenSheet { layer, .. }
             | Self::Unsound { layer, .. } => layer,
         }
     }
@@ -148,10 +194,13 @@ impl Loss {
             Self::OpenOutline { at, .. }
             | Self::ClosedGap { at, .. }
             | Self::Stray { at, .. }
+            | Self::Overlap { at, .. }
+            | Self::InsideOut { at, .. }
             | Self::Thin { at, .. }
             | Self::Vanished { at, .. }
             | Self::Narrow { at, .. }
             | Self::Branch { at, .. }
+            | Self::OpenSheet { at, .. }
             | Self::Unsound { at, .. } => at,
         }
     }
@@ -162,14 +211,13 @@ impl Loss {
 /// # Example
 /// ```
 /// use argil_slice::{outer_walls, slice, SliceSettings};
-/// # let corners = (0..8).map(|k| [20.0 * f64::from(k & 1), 20.0 * f64::from(k >> 1 & 1), 4.0 * f64::from(k >> 2)]).collect();
-/// # let sides = vec![[0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4], [2, 6, 3], [3, 6, 7], [0, 4, 2], [2, 4, 6], [1, 3, 5], [3, 7, 5]];
-/// # let mesh = argil_slice::mesh::Mesh::new(corners, sides).unwrap();
-/// let layers = slice(&mesh, &SliceSettings::default())?; // a box of 20 x 20 x 4 mm
+/// use argil_slice::mesh::Mesh;
+/// let mesh = Mesh::cuboid([0.0; 3], [20.0, 20.0, 4.0])?;
+/// let layers = slice(&mesh, &SliceSettings::default())?;
 /// let filled = outer_walls(&layers[0]);
 /// assert_eq!(filled.0.len(), 1);
 /// assert!(filled.0[0].interiors().is_empty());
-/// # Ok::<(), argil_slice::SliceError>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[must_use]
 pub fn outer_walls(layer: &Layer) -> MultiPolygon<f64> {

@@ -1,6 +1,6 @@
 //! A layer of loops that come from elsewhere.
 
-use argil_curve::ClosedCurve;
+use argil_curve::{ClosedCurve, on_grid};
 use geo_types::{Coord, LineString, MultiPolygon, Polygon};
 use glam::DVec2;
 
@@ -19,8 +19,7 @@ impl Layer {
     ///
     /// # Example
     /// ```
-    /// use argil_curve::DVec2;
-    /// use argil_slice::Layer;
+    /// use argil_slice::{DVec2, Layer};
     ///
     /// let square = |half: f64| [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|c| half * DVec2::from(c)).to_vec();
     /// let layer = Layer::of_loops(0, 0.5, 0.5, &[square(4.0), square(8.0)], 1e-4);
@@ -30,7 +29,7 @@ impl Layer {
     /// ```
     #[must_use]
     pub fn of_loops(index: usize, print_z: f64, height: f64, loops: &[Vec<DVec2>], grid: f64) -> Self {
-        let on_grid = |p: &DVec2| if grid > 0.0 { (*p / grid).round() * grid } else { *p };
+        let on_grid = |p: &DVec2| on_grid(*p, grid);
         let points: Vec<Vec<DVec2>> = loops.iter().map(|l| l.iter().map(on_grid).collect()).collect();
         let curves: Vec<Option<ClosedCurve>> =
             points.iter().map(|points| ClosedCurve::new(points.clone()).ok()).collect();
@@ -65,6 +64,44 @@ impl Layer {
             walls,
             losses: Vec::new(),
         }
+    }
+
+    /// The same of the rings of polygons: the exterior and the interiors of each are wall paths.
+    ///
+    /// # Complexity
+    /// As of [`Layer::of_loops`].
+    ///
+    /// # Example
+    /// ```
+    /// use argil_slice::Layer;
+    /// use geo_types::{LineString, MultiPolygon, Polygon, Rect};
+    ///
+    /// let window = LineString::from(vec![(4.0, 4.0), (8.0, 4.0), (8.0, 8.0), (4.0, 8.0)]);
+    /// let around = Rect::new((0.0, 0.0), (12.0, 12.0)).to_polygon().exterior().clone();
+    /// let layer = Layer::of_region(0, 0.5, 0.5, &Polygon::new(around, vec![window]).into(), 1e-4);
+    /// assert_eq!(layer.walls.iter().map(|wall| wall.hole).collect::<Vec<_>>(), [false, true]);
+    ///
+    /// let back: Vec<LineString> = layer.walls.iter().map(LineString::from).collect();
+    /// assert!(back.iter().all(LineString::is_closed));
+    /// ```
+    #[must_use]
+    pub fn of_region(index: usize, print_z: f64, height: f64, region: &MultiPolygon<f64>, grid: f64) -> Self {
+        let rings = region.iter().flat_map(|part| std::iter::once(part.exterior()).chain(part.interiors()));
+        let loops: Vec<Vec<DVec2>> = rings.map(corners).collect();
+        Self::of_loops(index, print_z, height, &loops, grid)
+    }
+}
+
+/// The vertices of a ring, the first not repeated at the end.
+fn corners(ring: &LineString<f64>) -> Vec<DVec2> {
+    let repeated = usize::from(ring.0.len() > 1 && ring.is_closed());
+    ring.coords().take(ring.0.len() - repeated).map(|c| DVec2::new(c.x, c.y)).collect()
+}
+
+impl From<&WallLoop> for LineString<f64> {
+    /// The wall as a closed line, its first point repeated at the end.
+    fn from(wall: &WallLoop) -> Self {
+        wall.points.iter().chain(wall.points.first()).map(|p| Coord { x: p.x, y: p.y }).collect()
     }
 }
 

@@ -1,7 +1,7 @@
 //! Tips on the corners of walls: a bead that turns at half its width from a corner leaves the corner bare.
 
 use crate::spine::sides;
-use argil_curve::SegmentIndex;
+use argil_curve::{SegmentIndex, on_grid};
 use glam::DVec2;
 
 /// How far from the wall's path, in w, clay reaches all the same: a bead gives a little.
@@ -67,8 +67,7 @@ fn index_of(rings: &[&mut Vec<DVec2>], width: f64) -> SegmentIndex {
 }
 
 fn with_tips(ring: &[DVec2], tips: &[(usize, f64)], base: f64, grid: f64) -> Vec<DVec2> {
-    let steps = 1.0 / grid;
-    let on_grid = |p: DVec2| (p * steps).round() / steps;
+    let on_grid = |p: DVec2| on_grid(p, grid);
     let count = ring.len();
     let mut result = Vec::with_capacity(count + 2 * tips.len());
     let mut tips = tips.iter().peekable();

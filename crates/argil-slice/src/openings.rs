@@ -4,10 +4,10 @@ use crate::{Layer, Loss, SliceError};
 ///
 /// [`slice`](crate::slice) leaves open pieces out and reports them as [`Loss::OpenOutline`]; a print of such layers lacks what
 /// they would have bounded. With `strict`, layers are refused as well whose outlines could be closed
-/// ([`Loss::ClosedGap`]).
+/// ([`Loss::ClosedGap`]), or that several bodies have in common ([`Loss::Overlap`]).
 ///
 /// # Errors
-/// [`SliceError::Open`] or, if all could be closed, [`SliceError::Gap`].
+/// [`SliceError::InsideOut`] and [`SliceError::Open`] or, if all could be closed, [`SliceError::Gap`] and [`SliceError::Overlap`].
 ///
 /// # Complexity
 /// Linear in the number of losses.
@@ -25,6 +25,13 @@ use crate::{Layer, Loss, SliceError};
 /// ```
 pub fn check_closed(layers: &[Layer], strict: bool) -> Result<(), SliceError> {
     let losses = || layers.iter().flat_map(|layer| &layer.losses);
+    let inside_out = losses().filter_map(|loss| match *loss {
+        Loss::InsideOut { layer, at, area } => Some((area, layer, at)),
+        _ => None,
+    });
+    if let Some(((area, layer, at), count)) = greatest(inside_out, |place| place.0) {
+        return Err(SliceError::InsideOut { layer, at, area, others: count - 1 });
+    }
     let open = losses().filter_map(|loss| match *loss {
         Loss::OpenOutline { layer, at, length, gap } => Some((length, layer, at, gap)),
         _ => None,
@@ -36,8 +43,15 @@ pub fn check_closed(layers: &[Layer], strict: bool) -> Result<(), SliceError> {
         Loss::ClosedGap { layer, at, gap } => Some((gap, layer, at)),
         _ => None,
     });
-    match greatest(closed, |gap| gap.0) {
-        Some(((gap, layer, at), count)) => Err(SliceError::Gap { layer, at, gap, others: count - 1 }),
+    if let Some(((gap, layer, at), count)) = greatest(closed, |gap| gap.0) {
+        return Err(SliceError::Gap { layer, at, gap, others: count - 1 });
+    }
+    let common = losses().filter(|_| strict).filter_map(|loss| match *loss {
+        Loss::Overlap { layer, at, area } => Some((area, layer, at)),
+        _ => None,
+    });
+    match greatest(common, |place| place.0) {
+        Some(((area, layer, at), count)) => Err(SliceError::Overlap { layer, at, area, others: count - 1 }),
         None => Ok(()),
     }
 }

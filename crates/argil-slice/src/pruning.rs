@@ -3,6 +3,7 @@
 use crate::chordal_axis::ChordalAxis;
 use crate::mitre::REACH;
 use crate::spine::{CLEARANCE, LEAST_LENGTH, STEP};
+use crate::thin::HALF_LANE;
 use argil_curve::{Segment, SegmentIndex};
 use glam::DVec2;
 use std::collections::VecDeque;
@@ -21,6 +22,9 @@ const OVERLAP: f64 = 0.06;
 const SMOOTHING: usize = 10;
 const ASIDE: f64 = 0.05;
 
+/// What is left between a spine and the boundary, in w: half a lane, and what simplification and rounding take.
+const LANE_CLEARANCE: f64 = HALF_LANE + 0.004;
+
 /// An axis that is cut back from its ends as long as everything stays covered.
 pub(crate) struct Pruning {
     axis: ChordalAxis,
@@ -28,6 +32,8 @@ pub(crate) struct Pruning {
     kept: Vec<bool>,
     /// Nodes inside the wall, where a spine ends.
     anchored: Vec<bool>,
+    /// How far each node may be moved aside, mm, with both its lanes still in the outline.
+    room: Vec<f64>,
     /// The bare points, as segments without length, and how many kept nodes reach each.
     bare: SegmentIndex,
     reached_by: Vec<u32>,
@@ -68,10 +74,12 @@ impl Pruning {
                 open.extend(&axis.links[node]);
             }
         }
+        let room =
+            depth.iter().map(|depth| (depth - LANE_CLEARANCE * width).clamp(0.0, ASIDE * width)).collect();
         let bare = points.iter().zip(is_bare).filter(|(_, bare)| **bare).map(|(&p, _)| Segment::new(p, p));
         let bare = SegmentIndex::new(bare.collect(), width);
         let reached_by = vec![0; bare.segments().len()];
-        let mut pruning = Self { axis, kept, anchored, bare, reached_by, width };
+        let mut pruning = Self { axis, kept, anchored, room, bare, reached_by, width };
         for node in 0..count {
             if pruning.kept[node] {
                 pruning.for_each_reached(node, |reached_by| *reached_by += 1);
@@ -250,7 +258,7 @@ impl Pruning {
             moved.extend(inner.iter().map(|&(node, [a, b], place)| {
                 let [here, a, b] = [node, a, b].map(|node| self.axis.nodes[node].at);
                 let wanted = here.midpoint(a.midpoint(b));
-                place + (wanted - place).clamp_length_max(ASIDE * self.width)
+                place + (wanted - place).clamp_length_max(self.room[node])
             }));
             for (&(node, ..), &at) in inner.iter().zip(&moved) {
                 self.axis.nodes[node].at = at;

@@ -11,9 +11,9 @@ use glam::DVec2;
 ///
 /// So bodies that overlap are one, cavities stay, and a mesh that is inside out (it winds −1 times) is as good as
 /// another. Pieces of less than `least_area` are dropped.
-pub(crate) fn wound_region(contours: Vec<Vec<DVec2>>, least_area: f64) -> MultiPolygon<f64> {
-    let rings = contours.into_iter().filter(|ring| ring.len() >= 3);
-    let rings = MultiPolygon(rings.map(|ring| polygon_through(&[ring])).collect());
+pub(crate) fn wound_region(contours: &[Vec<DVec2>], least_area: f64) -> MultiPolygon<f64> {
+    let rings = contours.iter().filter(|ring| ring.len() >= 3);
+    let rings = MultiPolygon(rings.map(|ring| polygon_through(std::slice::from_ref(ring))).collect());
     let mut region =
         rings.boolean_op_with_fill_rule(&MultiPolygon(Vec::new()), OpType::Union, FillRule::NonZero);
     region.0.retain(|polygon| polygon.unsigned_area() >= least_area);

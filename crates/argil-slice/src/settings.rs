@@ -8,6 +8,8 @@ pub(crate) const LONGEST: f64 = 1e6;
 
 /// How a mesh is cut and its walls are laid.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct SliceSettings {
     /// Layer height h in millimetres (paper: 0.5). Lower layers follow the surface better and
     /// cost strand in proportion.
@@ -28,11 +30,14 @@ pub struct SliceSettings {
     /// sides are together at least twice as long as the gap. 10 by default; wider gaps are reported, a larger value guesses more.
     /// Gaps that lie inside the solid are closed at any width.
     pub hole: f64,
+    /// Whether the mesh is a sheet without thickness: its sections are the paths of walls themselves, with no inset, and open ones
+    /// are printed there and back. A sheet has one wall.
+    pub surface: bool,
 }
 
 impl Default for SliceSettings {
     fn default() -> Self {
-        Self { layer_height: 0.5, width: 1.5, walls: 1, grid: 1e-4, gap: 0.5, hole: 10.0 }
+        Self { layer_height: 0.5, width: 1.5, walls: 1, grid: 1e-4, gap: 0.5, hole: 10.0, surface: false }
     }
 }
 
@@ -49,6 +54,9 @@ impl SliceSettings {
             if !(0.0..=LONGEST).contains(&value) {
                 return Err(SliceError::Setting { setting, value });
             }
+        }
+        if self.surface && self.walls > 1 {
+            return Err(SliceError::SheetWalls { walls: self.walls });
         }
         if self.walls == 0 {
             return Err(SliceError::NoWalls);

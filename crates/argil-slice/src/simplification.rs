@@ -1,6 +1,7 @@
 //! Fewer vertices for the same curve, after Douglas and Peucker,
 //! <https://doi.org/10.3138/FM57-6770-U75U-7727>.
 
+use argil_curve::on_grid;
 use glam::DVec2;
 
 /// A closed curve through some of the vertices, from which no vertex is farther than `tolerance`.
@@ -12,10 +13,9 @@ pub(crate) fn simplified(ring: &[DVec2], tolerance: f64) -> Vec<DVec2> {
 
 /// The ring on the grid of the output, without the sides that are shorter than `least_side`.
 pub(crate) fn rounded(ring: &[DVec2], grid: f64, least_side: f64) -> Vec<DVec2> {
-    let steps = 1.0 / grid;
     let mut kept: Vec<DVec2> = Vec::with_capacity(ring.len());
     for &point in ring {
-        let point = (point * steps).round() / steps;
+        let point = on_grid(point, grid);
         if kept.last().is_none_or(|last| last.distance(point) >= least_side) {
             kept.push(point);
         }

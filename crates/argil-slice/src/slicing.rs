@@ -4,7 +4,9 @@ use crate::layer::{Layer, Loss};
 use crate::region::{perimeter, signed_area, wound_region};
 use crate::section::Sweep;
 use crate::settings::MOST_LAYERS;
+use crate::sheet::{Sheet, SheetSection};
 use crate::wall::{Walls, walls};
+use crate::winding::unlike_one;
 use crate::{SliceError, SliceSettings};
 use argil_mesh::Mesh;
 use geo::{Distance, Euclidean};
@@ -21,6 +23,10 @@ const SHEET: f64 = 3e-4;
 
 /// Open pieces of a cut up to this length, in w, bound nothing that a bead could show.
 const SPECK: f64 = 0.05;
+
+/// Layers that are cut before somebody is asked whether to go on: so few that an answer is not long in coming, and enough for all
+/// threads of a desk.
+const BATCH: usize = 16;
 
 /// Cuts a mesh into layers and lays the wall paths into each outline. The paper
 /// takes both as given.
@@ -48,57 +54,35 @@ const SPECK: f64 = 0.05;
 /// );
 /// ```
 pub fn slice(mesh: &Mesh, settings: &SliceSettings) -> Result<Vec<Layer>, SliceError> {
-    let sections = sections(mesh, settings)?;
-    #[cfg(feature = "rayon")]
-    let sections = sections.into_par_iter();
-    #[cfg(not(feature = "rayon"))]
-    let sections = sections.into_iter();
-    Ok(sections.map(|section| section.layer(settings)).collect())
+    // Nobody ends it, so that there are layers.
+    slice_while(mesh, settings, &mut || true).map(Option::unwrap_or_default)
 }
 
-/// What is solid at the height of one cut.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Outline {
-    /// Height of the cut in millimetres.
-    pub cut_z: f64,
-    /// As [`Layer::outline`].
-    pub region: MultiPolygon<f64>,
-}
-
-/// The outlines of [`slice`]'s layers by themselves, for those who want no walls in them: most of the work is theirs.
+/// The same for as long as `goes_on` says so: it is asked before the mesh is oriented, and again before every sixteen layers.
+/// `None` where it has ended the work.
 ///
 /// # Errors
-/// As [`slice`].
+/// Those of [`slice`].
 ///
 /// # Complexity
-/// O(triangles + crossings of planes with triangles), and near linear in the vertices of each outline.
+/// That of [`slice`]; what one batch of layers leaves behind is let go before the next, but for the layers themselves.
 ///
 /// # Example
 /// ```
-/// use argil_slice::{mesh::Mesh, outlines, SliceSettings};
-/// let corners = vec![[0.0; 3], [9.0, 0.0, 0.0], [0.0, 9.0, 0.0], [0.0, 0.0, 9.0]];
-/// let pyramid = Mesh::new(corners, vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]).unwrap();
-/// let outlines = outlines(&pyramid, &SliceSettings::default())?;
-/// assert_eq!((outlines.len(), outlines[0].cut_z), (18, 0.25));
+/// use argil_slice::{SliceSettings, slice_while, stacked};
+/// # use glam::DVec2;
+/// # let square = vec![DVec2::ZERO, DVec2::new(8.0, 0.0), DVec2::new(8.0, 8.0), DVec2::new(0.0, 8.0)];
+/// let mesh = stacked(&vec![vec![square]; 40], 0.5)?;
+/// let mut asked = 0;
+/// let layers = slice_while(&mesh, &SliceSettings::default(), &mut || { asked += 1; asked < 3 })?;
+/// assert_eq!((layers, asked), (None, 3));
 /// # Ok::<(), argil_slice::SliceError>(())
 /// ```
-pub fn outlines(mesh: &Mesh, settings: &SliceSettings) -> Result<Vec<Outline>, SliceError> {
-    let sections = sections(mesh, settings)?;
-    #[cfg(feature = "rayon")]
-    let sections = sections.into_par_iter();
-    #[cfg(not(feature = "rayon"))]
-    let sections = sections.into_iter();
-    let outline = |mut section: UnclosedSection| {
-        let cut_z = section.cut_z;
-        let mut losses = Vec::new();
-        section.close(settings, &mut losses);
-        Outline { cut_z, region: wound_region(section.contours, LEAST_AREA) }
-    };
-    Ok(sections.map(outline).collect())
-}
-
-/// The cuts of all layers, bottom first.
-fn sections(mesh: &Mesh, settings: &SliceSettings) -> Result<Vec<UnclosedSection>, SliceError> {
+pub fn slice_while(
+    mesh: &Mesh,
+    settings: &SliceSettings,
+    goes_on: &mut dyn FnMut() -> bool,
+) -> Result<Option<Vec<Layer>>, SliceError> {
     settings.check()?;
     let bounds = mesh.bounds();
     let [wide, deep, height] = bounds.size();
@@ -107,19 +91,33 @@ fn sections(mesh: &Mesh, settings: &SliceSettings) -> Result<Vec<UnclosedSection
     let bottom = bounds.min[2];
     let planes: Vec<f64> = (0..layers).map(|n| bottom + (n as f64 + 0.5) * settings.layer_height).collect();
 
+    if !goes_on() {
+        return Ok(None);
+    }
     let mesh = mesh.oriented();
     let edges = mesh.edges();
     let mut sweep = Sweep::new(&mesh, &edges, &planes);
     let mut linker = Linker::new(edges.ends().len());
     let mut cuts = Vec::new();
-    let mut sections = Vec::with_capacity(layers);
-    for (index, &cut_z) in planes.iter().enumerate() {
-        sweep.advance(&mut cuts);
-        let (contours, open) = linker.link(&cuts);
-        let print_z = bottom + (index as f64 + 1.0) * settings.layer_height;
-        sections.push(UnclosedSection { index, cut_z, print_z, contours, open });
+    let mut done = Vec::with_capacity(layers);
+    for (batch, heights) in planes.chunks(BATCH).enumerate() {
+        if !goes_on() {
+            return Ok(None);
+        }
+        let mut section = |(k, &cut_z): (usize, &f64)| {
+            let index = batch * BATCH + k;
+            sweep.advance(&mut cuts);
+            let (contours, open) = linker.link(&cuts);
+            let print_z = bottom + (index as f64 + 1.0) * settings.layer_height;
+            UnclosedSection { index, cut_z, print_z, contours, open }
+        };
+        let sections: Vec<UnclosedSection> = heights.iter().enumerate().map(&mut section).collect();
+        #[cfg(feature = "rayon")]
+        done.par_extend(sections.into_par_iter().map(|section| section.layer(settings)));
+        #[cfg(not(feature = "rayon"))]
+        done.extend(sections.into_iter().map(|section| section.layer(settings)));
     }
-    Ok(sections)
+    Ok(Some(done))
 }
 
 /// What one plane cuts out of the mesh.
@@ -134,13 +132,19 @@ struct UnclosedSection {
 impl UnclosedSection {
     /// The layer with its walls; this is most of the work, and that of one layer is none of another's.
     fn layer(mut self, settings: &SliceSettings) -> Layer {
+        if settings.surface {
+            return self.sheet(settings);
+        }
         let index = self.index;
         let width = settings.width;
         let mut losses = Vec::new();
-        self.close(settings, &mut losses);
+        if !self.open.is_empty() {
+            self.close(settings, &mut losses);
+        }
         let sheets: Vec<Vec<DVec2>> =
             self.contours.iter().filter(|contour| is_sheet(contour, width)).cloned().collect();
-        let outline = wound_region(self.contours, LEAST_AREA);
+        let outline = wound_region(&self.contours, LEAST_AREA);
+        losses.extend(unlike_one(index, &self.contours, &outline, width));
         for chain in &self.open {
             let Some(&at) = chain.points.last() else { continue };
             let length = chain.length();
@@ -158,11 +162,28 @@ impl UnclosedSection {
         Layer { index, cut_z: self.cut_z, print_z: self.print_z, outline, walled, walls, losses }
     }
 
+    /// The layer of a sheet. Gaps that a bead covers are closed; wider ones are where the sheet ends.
+    fn sheet(mut self, settings: &SliceSettings) -> Layer {
+        let (layer, width) = (self.index, settings.width);
+        let sure = settings.gap * width;
+        let nothing = MultiPolygon(Vec::new());
+        let mut closed = close_gaps(&mut self.open, &Closing { limit: sure, sure, solid: &nothing });
+        self.contours.append(&mut closed.contours);
+        let (doubled, contours): (Vec<_>, Vec<_>) =
+            self.contours.into_iter().partition(|contour| is_sheet(contour, width));
+        let (open, specks): (Vec<_>, Vec<_>) =
+            self.open.into_iter().partition(|chain| chain.length() > SPECK * width);
+        let section = SheetSection { layer, contours: &contours, doubled: &doubled, open: &open };
+        let Sheet { outline, walls: Walls { walled, walls, mut losses } } = section.sheet(settings);
+        let seen = closed.gaps.into_iter().filter(|&(_, gap)| gap > settings.grid);
+        losses.extend(seen.map(|(at, gap)| Loss::ClosedGap { layer, at, gap }));
+        let strays = specks.iter().filter_map(|chain| Some((*chain.points.last()?, chain.length())));
+        losses.extend(strays.map(|(at, length)| Loss::Stray { layer, at, length }));
+        Layer { index: layer, cut_z: self.cut_z, print_z: self.print_z, outline, walled, walls, losses }
+    }
+
     /// Closes contours across gaps: narrow ones first, then wider ones, where that leaves little to guess.
     fn close(&mut self, settings: &SliceSettings, losses: &mut Vec<Loss>) {
-        if self.open.is_empty() {
-            return;
-        }
         let sure = settings.gap * settings.width;
         let nothing = MultiPolygon(Vec::new());
         let narrow = Closing { limit: sure, sure, solid: &nothing };
@@ -171,7 +192,7 @@ impl UnclosedSection {
         let mut gaps = closed.gaps;
         let limit = settings.hole * settings.width;
         if !self.open.is_empty() && limit > sure {
-            let solid = wound_region(self.contours.clone(), LEAST_AREA);
+            let solid = wound_region(&self.contours, LEAST_AREA);
             self.open.retain(|chain| match chain.points.last() {
                 Some(&at) if runs_inside(chain, &solid) => {
                     losses.push(Loss::Stray { layer: self.index, at, length: chain.length() });

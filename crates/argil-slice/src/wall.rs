@@ -10,7 +10,7 @@ use crate::soundness::unsound;
 use crate::spine::{self, is_bare_somewhere};
 use crate::thin::{HALF_LANE, has_spine, with_spines};
 use argil_curve::SegmentIndex;
-use geo::{Area, Intersects};
+use geo::{Area, Contains, Intersects};
 use geo_types::{MultiPolygon, Polygon};
 use glam::DVec2;
 
@@ -87,6 +87,32 @@ pub(crate) fn walls(layer: usize, outline: &MultiPolygon<f64>, settings: &SliceS
     nest(&mut walls);
     let walled = firsts.into_iter().flat_map(|first| first.walled).collect();
     Walls { walled: MultiPolygon(walled), walls, losses }
+}
+
+/// The walls whose paths are the rings of a region as they are, and those round lines inside of it, gone along there and back.
+pub(crate) fn walls_along(
+    layer: usize,
+    region: &MultiPolygon<f64>,
+    slits: &MultiPolygon<f64>,
+    settings: &SliceSettings,
+) -> Walls {
+    let mut losses = Vec::new();
+    let simple: Vec<Polygon<f64>> =
+        region.iter().chain(slits).map(|polygon| simpler(polygon, settings.width)).collect();
+    let sources = simple.iter().map(|polygon| Source { polygon, distance: 0.0, wall: 0, thin: true });
+    let pieces = sources.flat_map(|source| source.pieces(ATTEMPTS[0], settings)).collect();
+    let pieces = sound_pieces(pieces, layer, settings, &mut losses);
+    let mut walls: Vec<WallLoop> = pieces.into_iter().flat_map(Piece::into_loops).collect();
+    nest(&mut walls);
+    let mut walled = region.clone();
+    for slit in slits {
+        let around =
+            walled.0.iter_mut().find(|polygon| slit.exterior().points().all(|p| polygon.contains(&p)));
+        if let Some(around) = around {
+            around.interiors_push(slit.exterior().clone());
+        }
+    }
+    Walls { walled, walls, losses }
 }
 
 /// The first wall of an outline and how it came about.

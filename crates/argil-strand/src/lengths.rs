@@ -3,6 +3,16 @@
 use crate::Role;
 
 /// Length in mm laid in each role.
+///
+/// # Example
+/// ```
+/// use argil_strand::{Role, RoleLengths};
+/// let mut lengths = RoleLengths::default();
+/// lengths.add(Role::Wall, 12.0);
+/// lengths.add(Role::Support, 3.0);
+/// assert_eq!((lengths.model(), lengths.non_model(), lengths.total()), (12.0, 3.0, 15.0));
+/// assert_eq!(lengths.of(Role::Seam), 0.0);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RoleLengths {

@@ -20,11 +20,14 @@ pub enum Role {
     Seam,
     /// A bead inside the part or closing it: floors, roofs, further walls.
     Fill,
+    /// Turns on the bed round the lowest layer, before its cycle: the flow steadies itself on them. They are thrown away.
+    Skirt,
 }
 
 impl Role {
     /// Every role, in the order in which reports list them.
-    pub const ALL: [Role; 5] = [Role::Wall, Role::Support, Role::Connection, Role::Seam, Role::Fill];
+    pub const ALL: [Role; 6] =
+        [Role::Wall, Role::Support, Role::Connection, Role::Seam, Role::Fill, Role::Skirt];
 
     /// The role's name in lower case, as in reports and files.
     ///
@@ -39,6 +42,7 @@ impl Role {
             Role::Connection => "connection",
             Role::Seam => "seam",
             Role::Fill => "fill",
+            Role::Skirt => "skirt",
         }
     }
 

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::{BeadShape, LayerSummary, Role, RoleLengths};
+use crate::{BeadShape, LayerSummary, Rise, Role, RoleLengths, StrandError};
 
 /// How far the last point of a layer may lie from its first one and still close the cycle, mm. Planners copy the
 /// point, so any real distance is a gap; the allowance is for a coordinate that went through decimal text.
@@ -28,95 +28,37 @@ pub struct SupportSource {
     pub needs: Vec<DVec2>,
 }
 
-/// One layer of the strand: a closed cycle at one height.
+/// One layer of the strand: a closed cycle, at one height unless the strand [rises](Strand::risen) along it.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct StrandLayer {
     /// The layer's number in the slicing of the part. It rises from layer to layer and may skip numbers.
     pub index: usize,
-    /// Height of the top of the bead above the bed, mm: where the nozzle's mouth is.
+    /// Height of the top of the bead above the bed, mm: where the nozzle's mouth is. Of a layer that rises, where it would be if
+    /// it lay level.
     pub z: f64,
-    /// Height of the bead, mm.
+    /// Height of the bead, mm; of a layer that rises, what it would be if it lay level.
     pub height: f64,
     /// Width of the bead, mm.
     pub width: f64,
-    /// The stretches in the order of laying. The lowest layer starts at [`Strand::start`]; every other one begins
-    /// with a [`Role::Seam`] step that rises from the end of the layer below.
+    /// The stretches in the order of laying. The lowest layer starts at [`Strand::start`], perhaps with a [`Role::Skirt`] that leads
+    /// to its cycle; every other one begins with a [`Role::Seam`] step that rises from the end of the layer below.
     pub moves: Vec<Move>,
     /// Where this layer supports the one above, for reports and pictures.
     #[cfg_attr(feature = "serde", serde(default))]
     pub supports: Vec<SupportSource>,
 }
 
-/// Why layers do not make a strand.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum StrandError {
-    /// There is no layer, so nothing is laid.
-    #[error("a strand needs at least one layer")]
-    NoLayers,
-    /// A number is infinite or not a number.
-    #[error("layer {layer}: {what} is not finite")]
-    NotFinite {
-        /// Position of the layer, counted from the lowest.
-        layer: usize,
-        /// Which number it is.
-        what: &'static str,
-    },
-    /// A bead without a positive height and width.
-    #[error("layer {layer}: a bead of {width} mm by {height} mm cannot be laid")]
-    NoBead {
-        /// Position of the layer, counted from the lowest.
-        layer: usize,
-        /// Width of the bead, mm.
-        width: f64,
-        /// Height of the bead, mm.
-        height: f64,
-    },
-    /// A layer lies no higher than the one below.
-    #[error("layer {layer}: z = {z} mm is not above the layer below at {below} mm")]
-    NotRising {
-        /// Position of the layer, counted from the lowest.
-        layer: usize,
-        /// Its z, mm.
-        z: f64,
-        /// The z of the layer below, mm.
-        below: f64,
-    },
-    /// A layer's number is not higher than that of the one below.
-    #[error("layer {layer}: number {index} is not above {below}, the number of the layer below")]
-    NumberNotRising {
-        /// Position of the layer, counted from the lowest.
-        layer: usize,
-        /// Its number.
-        index: usize,
-        /// The number of the layer below.
-        below: usize,
-    },
-    /// A layer above the lowest does not begin with a seam step.
-    #[error("layer {layer}: the first move is not the seam step from the layer below")]
-    NoSeamStep {
-        /// Position of the layer, counted from the lowest.
-        layer: usize,
-    },
-    /// A layer has no move besides its seam step.
-    #[error("layer {layer}: nothing is laid on it")]
-    NoMoves {
-        /// Position of the layer, counted from the lowest.
-        layer: usize,
-    },
-    /// A layer does not end where it began.
-    #[error("layer {layer}: the cycle is open by {gap} mm")]
-    Open {
-        /// Position of the layer, counted from the lowest.
-        layer: usize,
-        /// Distance from its last point to its first, mm.
-        gap: f64,
-    },
-}
-
 /// One stretch of the strand in space, as a machine moves.
+///
+/// # Example
+/// ```
+/// use argil_strand::{DVec3, Role, Step};
+/// let step = Step { layer: 1, from: DVec3::new(0.0, 0.0, 0.5), to: DVec3::new(0.0, 0.0, 1.0), role: Role::Seam };
+/// assert_eq!(step.length(), 0.5); // straight up
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Step {
     /// Position of the layer it belongs to, counted from the lowest.
     pub layer: usize,
@@ -126,6 +68,8 @@ pub struct Step {
     pub to: DVec3,
     /// What it is laid for.
     pub role: Role,
+    /// Height of the bead, mm.
+    pub height: f64,
 }
 
 impl Step {
@@ -145,6 +89,9 @@ impl Step {
 pub struct Strand {
     start: DVec2,
     layers: Vec<StrandLayer>,
+    /// For each layer one for each of its moves, or none if it lies level; empty where all do.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Vec::is_empty"))]
+    rises: Vec<Vec<Rise>>,
 }
 
 impl Strand {
@@ -189,7 +136,45 @@ impl Strand {
             }
             check_cycle(k, start, layer)?;
         }
-        Ok(Self { start, layers })
+        Ok(Self { start, layers, rises: Vec::new() })
+    }
+
+    /// The same strand with some of its layers rising along their cycles, as in a spiral: for each layer the z and the bead's height of
+    /// each of its moves, or nothing where the layer lies level. What rises before is forgotten.
+    ///
+    /// # Errors
+    /// [`StrandError::RiseCount`] where there are too few or too many, or any for the lowest layer; [`StrandError::NotFinite`];
+    /// [`StrandError::NoBead`] for a height below 0; [`StrandError::Falling`] where the strand would go down, also from a layer to the
+    /// next.
+    ///
+    /// # Complexity
+    /// O(n) in the number of moves.
+    ///
+    /// # Example
+    /// ```
+    /// # use argil_strand::{DVec2, Move, Rise, Role, Strand, StrandLayer};
+    /// # let there = Move { to: DVec2::new(4.0, 0.0), role: Role::Wall };
+    /// # let back = Move { to: DVec2::ZERO, role: Role::Wall };
+    /// # let seam = Move { to: DVec2::ZERO, role: Role::Seam };
+    /// # let layer = |index, z, moves| StrandLayer { index, z, height: 0.5, width: 1.5, moves, supports: vec![] };
+    /// # let layers = vec![layer(0, 0.5, vec![there, back]), layer(1, 1.0, vec![seam, there, back])];
+    /// let level = Strand::new(DVec2::ZERO, layers)?;
+    /// let climb = [(0.5, 0.0), (0.75, 0.125), (1.0, 0.375)].map(|(z, height)| Rise { z, height });
+    /// let spiral = level.clone().risen(vec![vec![], climb.to_vec()])?;
+    /// assert!(spiral.steps().all(|step| step.to.z >= step.from.z));
+    /// assert!(spiral.volume() < level.volume());
+    /// # Ok::<(), argil_strand::StrandError>(())
+    /// ```
+    pub fn risen(self, rises: Vec<Vec<Rise>>) -> Result<Self, StrandError> {
+        check_rises(&self.layers, &rises)?;
+        let rises = if rises.iter().all(Vec::is_empty) { Vec::new() } else { rises };
+        Ok(Self { rises, ..self })
+    }
+
+    /// How a layer rises: one for each of its moves. Empty for a layer that lies level, and above the uppermost.
+    #[must_use]
+    pub fn rises(&self, layer: usize) -> &[Rise] {
+        self.rises.get(layer).map_or(&[], Vec::as_slice)
     }
 
     /// Where the strand begins, mm: the first point of the lowest layer.
@@ -220,14 +205,14 @@ impl Strand {
     #[must_use]
     pub fn seam(&self, layer: usize) -> Option<DVec2> {
         let moves = &self.layers.get(layer)?.moves;
-        if layer == 0 { Some(self.start) } else { moves.first().map(|step| step.to) }
+        lead(layer, moves).checked_sub(1).map_or(Some(self.start), |last| moves.get(last).map(|step| step.to))
     }
 
-    /// The moves of a layer's cycle, without the seam step that leads to it. Empty above the uppermost layer.
+    /// The moves of a layer's cycle, without the skirt or the seam step that leads to it. Empty above the uppermost layer.
     #[must_use]
     pub fn cycle(&self, layer: usize) -> &[Move] {
         let moves = self.layers.get(layer).map_or(&[][..], |layer| &layer.moves);
-        if layer == 0 { moves } else { moves.get(1..).unwrap_or(&[]) }
+        moves.get(lead(layer, moves)..).unwrap_or(&[])
     }
 
     /// The layer's cycle as points, mm, its start point included, so that the last equals the first. Empty above
@@ -261,11 +246,16 @@ impl Strand {
         self.layers
             .iter()
             .enumerate()
-            .flat_map(|(k, layer)| layer.moves.iter().map(move |to| (k, layer.z, to)))
-            .map(move |(layer, z, step)| {
+            .flat_map(|(k, layer)| {
+                let level = Rise { z: layer.z, height: layer.height };
+                let rises = self.rises(k);
+                let lies = move |n: usize| rises.get(n).copied().unwrap_or(level);
+                layer.moves.iter().enumerate().map(move |(n, to)| (k, lies(n), to))
+            })
+            .map(move |(layer, Rise { z, height }, step)| {
                 let from = at;
                 at = step.to.extend(z);
-                Step { layer, from, to: at, role: step.role }
+                Step { layer, from, to: at, role: step.role, height }
             })
     }
 
@@ -298,8 +288,7 @@ impl Strand {
     /// Paste in the strand, mm³, with beads of the given shape.
     #[must_use]
     pub fn volume_as(&self, shape: BeadShape) -> f64 {
-        let area: Vec<f64> = self.layers.iter().map(|layer| shape.area(layer.width, layer.height)).collect();
-        self.steps().map(|step| step.length() * area[step.layer]).sum()
+        self.steps().map(|step| step.length() * shape.area(self.layers[step.layer].width, step.height)).sum()
     }
 
     /// What each layer holds, lowest first.
@@ -320,9 +309,11 @@ impl Strand {
                 volume: 0.0,
             })
             .collect();
-        self.steps().for_each(|step| summaries[step.layer].lengths.add(step.role, step.length()));
-        for (summary, layer) in summaries.iter_mut().zip(&self.layers) {
-            summary.volume = summary.lengths.total() * BeadShape::Rounded.area(layer.width, layer.height);
+        for step in self.steps() {
+            let summary = &mut summaries[step.layer];
+            summary.lengths.add(step.role, step.length());
+            summary.volume +=
+                step.length() * BeadShape::Rounded.area(self.layers[step.layer].width, step.height);
         }
         summaries
     }
@@ -353,17 +344,55 @@ fn check_numbers(k: usize, layer: &StrandLayer) -> Result<(), StrandError> {
     Ok(())
 }
 
-/// A seam step where one belongs, and a cycle that ends where it began.
+/// How many moves of a layer lead to its cycle: the skirt of the lowest, the seam step of any other.
+fn lead(layer: usize, moves: &[Move]) -> usize {
+    if layer == 0 { moves.iter().take_while(|step| step.role == Role::Skirt).count() } else { 1 }
+}
+
+/// A seam step where one belongs, skirt nowhere else than it may, and a cycle that ends where it began.
 fn check_cycle(k: usize, start: DVec2, layer: &StrandLayer) -> Result<(), StrandError> {
-    let (seam, cycle) = match layer.moves.split_first() {
-        None => return Err(StrandError::NoMoves { layer: k }),
-        Some(_) if k == 0 => (start, &layer.moves[..]),
-        Some((step, cycle)) if step.role == Role::Seam => (step.to, cycle),
+    let (to_seam, cycle) = layer.moves.split_at(lead(k, &layer.moves).min(layer.moves.len()));
+    let seam = match to_seam.last() {
+        None if k > 0 => return Err(StrandError::NoMoves { layer: k }),
+        None => start,
+        Some(step) if k == 0 || step.role == Role::Seam => step.to,
         Some(_) => return Err(StrandError::NoSeamStep { layer: k }),
     };
+    if cycle.iter().any(|step| step.role == Role::Skirt) {
+        return Err(StrandError::Skirt { layer: k });
+    }
     let end = cycle.last().ok_or(StrandError::NoMoves { layer: k })?.to;
     let gap = end.distance(seam);
     if gap <= CLOSED_WITHIN { Ok(()) } else { Err(StrandError::Open { layer: k, gap }) }
+}
+
+/// A rise for each move of a layer that rises, and none that goes down.
+fn check_rises(layers: &[StrandLayer], rises: &[Vec<Rise>]) -> Result<(), StrandError> {
+    if !rises.is_empty() && rises.len() != layers.len() {
+        let layer = rises.len().min(layers.len());
+        return Err(StrandError::RiseCount { layer, given: rises.len(), wanted: layers.len() });
+    }
+    let mut at = f64::NEG_INFINITY;
+    for (k, (layer, rises)) in layers.iter().zip(rises).enumerate() {
+        let wanted = if k == 0 { 0 } else { layer.moves.len() };
+        if !rises.is_empty() && rises.len() != wanted {
+            return Err(StrandError::RiseCount { layer: k, given: rises.len(), wanted });
+        }
+        let level = Rise { z: layer.z, height: layer.height };
+        for &Rise { z, height } in if rises.is_empty() { std::slice::from_ref(&level) } else { rises } {
+            if !(z.is_finite() && height.is_finite()) {
+                return Err(StrandError::NotFinite { layer: k, what: "a rise" });
+            }
+            if height < 0.0 {
+                return Err(StrandError::NoBead { layer: k, width: layer.width, height });
+            }
+            if z < at {
+                return Err(StrandError::Falling { layer: k, from: at, to: z });
+            }
+            at = z;
+        }
+    }
+    Ok(())
 }
 
 /// What a file may hold before the strand's shape is checked.
@@ -372,6 +401,8 @@ fn check_cycle(k: usize, start: DVec2, layer: &StrandLayer) -> Result<(), Strand
 struct Unchecked {
     start: DVec2,
     layers: Vec<StrandLayer>,
+    #[serde(default)]
+    rises: Vec<Vec<Rise>>,
 }
 
 #[cfg(feature = "serde")]
@@ -379,6 +410,6 @@ impl TryFrom<Unchecked> for Strand {
     type Error = StrandError;
 
     fn try_from(unchecked: Unchecked) -> Result<Self, StrandError> {
-        Strand::new(unchecked.start, unchecked.layers)
+        Strand::new(unchecked.start, unchecked.layers)?.risen(unchecked.rises)
     }
 }

@@ -1,6 +1,6 @@
 //! Invariants of strands: what `Strand::new` lets in, and what the measures add up to.
 
-use argil_strand::{BeadShape, DVec2, Move, Role, Strand, StrandError, StrandLayer};
+use argil_strand::{BeadShape, DVec2, Move, Rise, Role, Strand, StrandError, StrandLayer};
 use proptest::prelude::*;
 
 const ROLES: [Role; 3] = [Role::Wall, Role::Support, Role::Connection];
@@ -95,6 +95,70 @@ proptest! {
     }
 }
 
+/// Each layer but the lowest rises evenly from the one below, with beads as thick as it has risen so far.
+fn rises(layers: &[StrandLayer]) -> Vec<Vec<Rise>> {
+    let mut below = None;
+    let rise = |layer: &StrandLayer| {
+        let from = below.replace(layer.z)?;
+        let count = layer.moves.len() as f64;
+        let share = move |k: usize| (k + 1) as f64 / count;
+        let at = |k: usize| Rise { z: from + (layer.z - from) * share(k), height: layer.height * share(k) };
+        Some((0..layer.moves.len()).map(at).collect())
+    };
+    layers.iter().map(rise).map(Option::unwrap_or_default).collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn a_strand_that_rises_never_falls_and_stays_in_place((start, layers) in strands()) {
+        let level = Strand::new(start, layers.clone()).unwrap();
+        let strand = level.clone().risen(rises(&layers)).unwrap();
+        let mut volume = 0.0;
+        for (step, flat) in strand.steps().zip(level.steps()) {
+            prop_assert!(step.to.z >= step.from.z && step.to.z <= flat.to.z + 1e-12);
+            prop_assert_eq!((step.to.truncate(), step.role), (flat.to.truncate(), flat.role));
+            volume += step.length() * BeadShape::Box.area(layers[step.layer].width, step.height);
+        }
+        prop_assert!((volume - strand.volume_as(BeadShape::Box)).abs() < 1e-9 * volume.max(1.0));
+        let by_layer: f64 = strand.summaries().iter().map(|summary| summary.volume).sum();
+        prop_assert!((by_layer - strand.volume()).abs() < 1e-9 * by_layer.max(1.0));
+        prop_assert_eq!(strand.risen(Vec::new()).unwrap(), level);
+    }
+
+    #[test]
+    fn a_rise_that_falls_or_does_not_fit_is_refused((start, layers) in strands(), pick in any::<prop::sample::Index>()) {
+        let strand = Strand::new(start, layers.clone()).unwrap();
+        let refused = |spoil: &dyn Fn(&mut Vec<Vec<Rise>>)| {
+            let mut rises = rises(&layers);
+            spoil(&mut rises);
+            strand.clone().risen(rises).err()
+        };
+        let (lowest, count) = (layers[0].z, layers.len());
+        let on_bed = |r: &mut Vec<Vec<Rise>>| r[0] = vec![Rise { z: lowest, height: 0.1 }; layers[0].moves.len()];
+        let is_count = |error, at, due| matches!(
+            error, Some(StrandError::RiseCount { layer, wanted, .. }) if layer == at && wanted == due
+        );
+        prop_assert!(is_count(refused(&|r| r.push(vec![])), count, count));
+        prop_assert!(is_count(refused(&on_bed), 0, 0));
+        if count > 1 {
+            let k = 1 + pick.index(count - 1);
+            let short = |r: &mut Vec<Vec<Rise>>| { r[k].pop(); };
+            // A single move less one is none: the layer lies level.
+            let due = layers[k].moves.len();
+            prop_assert!(due == 1 || is_count(refused(&short), k, due));
+            let falling = refused(&|r| r[k][0].z = lowest - 0.01);
+            let falls = matches!(falling, Some(StrandError::Falling { layer, .. }) if layer == k);
+            let thin = refused(&|r| r[k][0].height = -1e-9);
+            let has_none = matches!(thin, Some(StrandError::NoBead { layer, .. }) if layer == k);
+            let wild = refused(&|r| r[k][0].height = f64::NAN);
+            let is_wild = matches!(wild, Some(StrandError::NotFinite { layer, .. }) if layer == k);
+            prop_assert_eq!((falls, has_none, is_wild), (true, true, true));
+        }
+    }
+}
+
 /// Two layers of a triangle, to be spoilt.
 fn triangle() -> (DVec2, Vec<StrandLayer>) {
     let to = |x, y, role| Move { to: DVec2::new(x, y), role };
@@ -131,6 +195,27 @@ fn positions_above_the_uppermost_layer_are_empty() {
     assert!(strand.polyline(2).is_empty());
 }
 
+#[test]
+fn a_skirt_leads_to_the_cycle_and_lies_nowhere_else() {
+    let (start, mut layers) = triangle();
+    let skirt = |x, y| Move { to: DVec2::new(x, y), role: Role::Skirt };
+    layers[0].moves.splice(0..0, [skirt(20.0, 0.0), skirt(20.0, 20.0), skirt(start.x, start.y)]);
+    let strand = Strand::new(DVec2::new(-5.0, -5.0), layers.clone()).unwrap();
+    assert_eq!((strand.seam(0), strand.cycle(0).len()), (Some(start), 3));
+    assert_eq!(strand.polyline(0).first(), strand.polyline(0).last());
+    assert_eq!(strand.steps().next().unwrap().from.truncate(), strand.start());
+    let refused = |layer: usize, at: usize| {
+        let mut spoilt = layers.clone();
+        spoilt[layer].moves[at].role = Role::Skirt;
+        Strand::new(DVec2::new(-5.0, -5.0), spoilt).unwrap_err()
+    };
+    assert_eq!(refused(0, 4), StrandError::Skirt { layer: 0 });
+    assert_eq!(refused(1, 2), StrandError::Skirt { layer: 1 });
+    assert_eq!(refused(1, 0), StrandError::NoSeamStep { layer: 1 });
+    layers[0].moves.truncate(3);
+    assert_eq!(Strand::new(DVec2::ZERO, layers).unwrap_err(), StrandError::NoMoves { layer: 0 });
+}
+
 #[cfg(feature = "serde")]
 #[test]
 fn a_strand_survives_json_and_a_broken_one_is_refused() {
@@ -138,6 +223,10 @@ fn a_strand_survives_json_and_a_broken_one_is_refused() {
     let strand = Strand::new(start, layers).unwrap();
     let text = serde_json::to_string(&strand).unwrap();
     assert_eq!(serde_json::from_str::<Strand>(&text).unwrap(), strand);
+    let spiral = strand.clone().risen(rises(strand.layers())).unwrap();
+    let risen = serde_json::to_string(&spiral).unwrap();
+    assert_eq!(serde_json::from_str::<Strand>(&risen).unwrap(), spiral);
+    assert!(!text.contains("rises") && risen.contains("rises"));
     let broken = text.replace("\"seam\"", "\"wall\"");
     assert!(serde_json::from_str::<Strand>(&broken).is_err());
 }

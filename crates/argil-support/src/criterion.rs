@@ -8,6 +8,8 @@ use argil_curve::{ArcSpan, ClosedCurve, SegmentIndex, gaps, held_spans};
 /// Both belong to the paste and are found by test prints; the default is the paper's clay at a bead of 1.5
 /// mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Criterion {
     /// `ε_across`: a point is held when some point of the layer below lies within this of it in the plane,
     /// mm.

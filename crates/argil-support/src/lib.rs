@@ -4,6 +4,12 @@
 //! twice its own limit pass.
 //!
 #![doc = include_str!("../README.md")]
+//!
+//! # In a picture
+//!
+#![doc = include_str!("../pictures/support-points.svg")]
+//!
+//! The right half of the path has no wall below it. The points hold it, and a strand may pass anywhere in their discs.
 #![forbid(unsafe_code)]
 
 mod coverage;

@@ -13,6 +13,7 @@ const SHORTEST_BRIDGE: f64 = 1e-6;
 
 /// A place in the layer below through which, or close by which, the path must pass.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SupportPoint {
     /// Where the path below is best laid, mm.
     pub position: DVec2,

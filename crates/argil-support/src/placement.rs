@@ -26,6 +26,8 @@ const RETURNED: f64 = 0.02;
 /// - `along` + 2 `held` − 2 `cover` ≤ `ε_along`,
 /// - `share` ≤ `slack`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Placement {
     /// A point nearer than this to a wall of the layer below is held by it: 0.95 `ε_across`.
     pub across: f64,

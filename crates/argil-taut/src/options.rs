@@ -2,6 +2,8 @@
 
 /// Limits of the pull. Lengths in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct TautOptions {
     /// Bead width w.
     pub width: f64,

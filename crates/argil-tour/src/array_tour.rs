@@ -1,5 +1,7 @@
 //! A tour in an array that is taken to pieces, put together anew, and brought back.
 
+use alloc::vec::Vec;
+
 /// A node on the tour and the edge that leaves it.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Stop {

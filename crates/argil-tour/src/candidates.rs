@@ -1,6 +1,7 @@
 //! Which nodes may become neighbours on the tour.
 
 use crate::Metric;
+use alloc::vec::Vec;
 
 /// A candidate neighbour and its distance, side by side because the search always needs both.
 #[derive(Clone, Copy, Debug)]

@@ -2,6 +2,8 @@
 
 use crate::Metric;
 use crate::candidates::CandidateLists;
+use alloc::vec;
+use alloc::vec::Vec;
 
 const NONE: u32 = u32::MAX;
 

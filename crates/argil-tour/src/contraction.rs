@@ -1,7 +1,9 @@
 //! A smaller tour to begin with: paths instead of nodes.
 
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
+use alloc::collections::BinaryHeap;
+use alloc::vec;
+use alloc::vec::Vec;
+use core::cmp::Reverse;
 
 use crate::Metric;
 use crate::candidates::CandidateLists;

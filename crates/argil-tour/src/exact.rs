@@ -4,6 +4,7 @@
 //! Bellman, DOI 10.1145/321105.321111.
 
 use crate::Metric;
+use alloc::vec::Vec;
 
 /// Above this many nodes the table (two megabytes at 16 nodes) and the time grow out of proportion.
 pub(crate) const MOST_NODES: usize = 16;
@@ -98,7 +99,7 @@ impl HeldKarp {
 
 /// The positions of the bits of `set`, lowest first.
 fn members(mut set: usize) -> impl Iterator<Item = usize> {
-    std::iter::from_fn(move || {
+    core::iter::from_fn(move || {
         if set == 0 {
             return None;
         }

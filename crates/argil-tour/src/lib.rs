@@ -1,8 +1,17 @@
 #![doc = include_str!("../README.md")]
 //!
+//! # In a picture
+//!
+#![doc = include_str!("../pictures/tour.svg")]
+//!
+//! Seventy-two places in one closed tour.
+//!
 //! The tour is the one through terminals and connection points of Sec. 3.3 of the paper, which takes it from an
 //! off-the-shelf solver. Here it may start from the layer above, and differs from it only where that is shorter.
 #![forbid(unsafe_code)]
+#![no_std]
+
+extern crate alloc;
 
 mod array_tour;
 mod candidates;

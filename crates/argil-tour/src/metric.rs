@@ -41,7 +41,7 @@ impl<M: Metric + ?Sized> Metric for &M {
 /// assert!(matches!(lopsided, Err(TourError::Asymmetric { row: 0, column: 1, .. })));
 /// # Ok::<(), TourError>(())
 /// ```
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MatrixMetric<'a> {
     nodes: usize,
     entries: &'a [f64],

@@ -4,6 +4,8 @@
 ///
 /// Work is counted, never timed: the same input gives the same tour on every machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct TourOptions {
     /// Up to this many nodes the tour is the shortest there is, by dynamic programming. Every further node
     /// doubles time and memory, so that more than 16 counts as 16.

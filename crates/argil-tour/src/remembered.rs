@@ -1,6 +1,7 @@
 //! A metric that remembers what it was asked last.
 
-use std::cell::Cell;
+use alloc::vec::Vec;
+use core::cell::Cell;
 
 use crate::Metric;
 

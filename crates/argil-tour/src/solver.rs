@@ -10,6 +10,7 @@ use crate::random::SplitMix;
 use crate::remembered::{FEWEST_REMEMBERED, Memory, Remembered};
 use crate::work_queue::WorkQueue;
 use crate::{Metric, Tour, TourOptions};
+use alloc::vec::Vec;
 
 /// From this many nodes on, the tour through greedy paths comes first. Fewer nodes have no large features.
 const FEWEST_CONTRACTED: usize = 100;
@@ -78,7 +79,7 @@ impl TourSolver {
         } else if n < FEWEST_REMEMBERED {
             self.search(metric, candidates, start, options);
         } else {
-            let mut memory = std::mem::take(&mut self.memory);
+            let mut memory = core::mem::take(&mut self.memory);
             memory.clear();
             self.search(&Remembered::new(metric, &mut memory), candidates, start, options);
             self.memory = memory;

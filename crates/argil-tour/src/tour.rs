@@ -1,7 +1,10 @@
 //! The outcome of a search.
 
+use alloc::vec::Vec;
+
 /// A closed tour: every node once, and back from the last to the first.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Tour {
     /// The nodes in the order in which they are visited. It begins with node 0, and of the two directions it
     /// takes the one whose second node has the lower number, so that equal cycles compare equal.

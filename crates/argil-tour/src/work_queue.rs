@@ -1,5 +1,7 @@
 //! The nodes whose surroundings changed.
 
+use alloc::vec::Vec;
+
 /// Nodes to be looked at, first come first served, none twice at a time.
 ///
 /// This is the complement of Bentley's don't-look bits (1992, DOI 10.1287/ijoc.4.4.387): a kick queues the ends of

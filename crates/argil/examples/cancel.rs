@@ -37,12 +37,29 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
 
     // The planner is none the worse for it, and being watched changes nothing.
     let mut told = Vec::new();
+    let mut asked = 0_usize;
     let watched = planner.plan_controlled(&mesh, &settings, &mut |progress| {
-        told.push(progress);
+        asked += 1;
+        if progress != Progress::Working {
+            told.push(progress);
+        }
         ControlFlow::Continue(())
     })?;
     assert_eq!(watched.strand, Planner::default().plan(&mesh, &settings)?.strand);
     assert_eq!((told.first(), told.last()), (Some(&Progress::Sliced { layers }), Some(&Progress::Descended)));
     assert!(told.iter().filter(|p| **p == Progress::Routing).count() >= layers);
+
+    // Whenever it is asked, also while the mesh is cut and the layers are joined.
+    for end in (1..=asked).rev().step_by(asked.div_ceil(10)).chain([1, 2]) {
+        let mut count = 0;
+        let outcome = planner.plan_controlled(&mesh, &settings, &mut |_| {
+            count += 1;
+            if count == end { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        assert!(
+            matches!(outcome, Err(PlanError::Cancelled)) && count == end,
+            "{end} of {asked}: {outcome:?}"
+        );
+    }
     Ok(())
 }

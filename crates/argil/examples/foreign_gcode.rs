@@ -5,14 +5,6 @@ use std::error::Error;
 use argil::mesh::Mesh;
 use argil_audit::{AuditSettings, audit, gcode::read_gcode};
 
-/// A block with one corner at the origin.
-fn block(x: f64, y: f64, z: f64) -> Result<Mesh, argil::mesh::MeshError> {
-    let corner = |k: u32| [x * f64::from(k & 1), y * f64::from(k >> 1 & 1), z * f64::from(k >> 2)];
-    let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-    let triangles = sides.into_iter().flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
-    Mesh::new((0..8).map(corner).collect(), triangles)
-}
-
 /// A file in CuraEngine's dialect: absolute E, `;LAYER:` and `;TYPE:` comments, the wall of the block, and one side of
 /// it left out by a `hop`.
 fn file(layers: usize, hop: bool) -> String {
@@ -38,7 +30,7 @@ fn file(layers: usize, hop: bool) -> String {
 }
 
 pub(crate) fn main() -> Result<(), Box<dyn Error>> {
-    let mesh = block(18.0, 18.0, 3.0)?;
+    let mesh = Mesh::cuboid([0.0; 3], [18.0, 18.0, 3.0])?;
     let settings = AuditSettings::for_width(1.5);
 
     let sound = audit(&read_gcode(&file(6, false)), &mesh, &settings)?;

@@ -3,24 +3,70 @@
 use argil_strand::{Move, Role, Strand, StrandLayer, SupportSource};
 
 use crate::descent::PlannedLayer;
+use crate::skirt::Ground;
+use crate::spiral::{Lie, aligned, spiral};
 use crate::stages::Seam;
 use crate::starts::opened_layers;
-use crate::{PlanError, Settings};
+use crate::{Climb, PlanError, Settings, SkirtLaid};
 
-/// Joins the cycles by a chain of starts. Where they are not `checked`, the starts stay where the seam stage wants them.
-pub(crate) fn strand(
+/// A strand, and what is to be told of it.
+pub(crate) struct Climbed {
+    pub(crate) strand: Strand,
+    /// How each layer lies; empty where no spiral was asked for.
+    pub(crate) lies: Vec<Lie>,
+    pub(crate) skirt: Option<SkirtLaid>,
+}
+
+/// Joins the cycles by a chain of starts, with skirt and spiral as asked for. Where they are not `checked`, the starts stay where
+/// the seam stage wants them.
+pub(crate) fn climbed(
     layers: &[PlannedLayer],
     seam: &mut impl Seam,
     settings: &Settings,
     checked: bool,
-) -> Result<Strand, PlanError> {
+) -> Result<Climbed, PlanError> {
+    if !settings.spiral {
+        let (strand, skirt) = joined(layers, seam, settings, checked)?;
+        return Ok(Climbed { strand, lies: Vec::new(), skirt });
+    }
+    let (strand, skirt) = joined(&aligned(layers, settings)?, seam, settings, checked)?;
+    let (strand, lies) = spiral(strand, settings)?;
+    if lies.iter().any(|lie| lie.climb == Climb::Rising) {
+        return Ok(Climbed { strand, lies, skirt });
+    }
+    // Where no layer rises, starts are hidden as they are in level layers.
+    let (strand, skirt) = joined(layers, seam, &Settings { spiral: false, ..*settings }, checked)?;
+    Ok(Climbed { strand, lies, skirt })
+}
+
+/// The cycles as one strand of level layers, and its skirt.
+fn joined(
+    layers: &[PlannedLayer],
+    seam: &mut impl Seam,
+    settings: &Settings,
+    checked: bool,
+) -> Result<(Strand, Option<SkirtLaid>), PlanError> {
+    let around = |skirt| Ground::new(&layers.first()?.curve, skirt, settings.width);
+    let ground = settings.skirt.as_ref().and_then(around);
+    let opened = match opened_layers(layers, seam, settings, checked, ground.as_ref()) {
+        // No chain begins in sight of the skirt: the part comes first.
+        Err(_) if ground.is_some() => opened_layers(layers, seam, settings, checked, None)?,
+        opened => opened?,
+    };
+    let skirt =
+        ground.zip(opened.first()).and_then(|(ground, (begin, _))| ground.moves(*begin, settings.grid));
+    let mut start = opened.first().map(|(begin, _)| *begin).unwrap_or_default();
+    let mut laid = None;
+    let mut leads = vec![Vec::new(); opened.len()];
+    for (lead, (begin, _)) in leads.iter_mut().zip(&opened).skip(1) {
+        lead.push(Move { to: *begin, role: Role::Seam });
+    }
+    if let (Some((begin, moves, told)), Some(lead)) = (skirt, leads.first_mut()) {
+        (start, *lead, laid) = (begin, moves, Some(told));
+    }
     let mut strand_layers = Vec::with_capacity(layers.len());
-    let mut first = None;
-    for (layer, (begin, mut moves)) in layers.iter().zip(opened_layers(layers, seam, settings, checked)?) {
-        match first {
-            None => first = Some(begin),
-            Some(_) => moves.insert(0, Move { to: begin, role: Role::Seam }),
-        }
+    for ((layer, (_, cycle)), mut moves) in layers.iter().zip(opened).zip(leads) {
+        moves.extend(cycle);
         let supports =
             layer.supports.iter().map(|s| SupportSource { at: s.position, needs: s.needs.clone() }).collect();
         strand_layers.push(StrandLayer {
@@ -32,5 +78,5 @@ pub(crate) fn strand(
             supports,
         });
     }
-    Ok(Strand::new(first.unwrap_or_default(), strand_layers)?)
+    Ok((Strand::new(start, strand_layers)?, laid))
 }

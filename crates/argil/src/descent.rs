@@ -144,7 +144,7 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
         let guide = start.and_then(|start| hold_start(start, &mut supports, settings));
         let field = SafeguardField::new(safeguard, 2.0 * settings.width);
         let mut barred = Vec::new();
-        let site = Site { layer, model, curves, walls, supports, field, above, start, guide };
+        let mut site = Site { layer, model, curves, walls, supports, field, above, start, guide };
 
         let walled = Walled::new(&layer.walled, settings.width);
         let passages = |done: &Attempt| walled.passages(&done.curve);
@@ -156,6 +156,10 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
                 break;
             }
             barred.append(&mut flawed);
+            if let (Err(_), Some(guide)) = (&best, site.guide.take()) {
+                // What leads on from the start may be what stands in the way.
+                site.supports.truncate(guide);
+            }
             let next = self.attempt(&site, &barred);
             flawed = places(&next, passages);
             if next.is_ok() && flawed.len() < fewest {
@@ -249,9 +253,12 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
             roots: cycle.roots,
             wall_length: cycle.length_of(Leg::Wall) - fill_length,
             fill_length,
+            infill_length: model.sparse_length(),
             widest_bare: model.widest_bare,
             free_length: cycle.length_of(Leg::Support) + cycle.length_of(Leg::Joint),
             pulled_back,
+            bead_heights: [settings.layer_height; 2],
+            ..LayerReport::default()
         };
         let curve = ClosedCurve::new(cycle.points).map_err(|e| (e.into(), None))?;
         Ok(Attempt { report, curve, legs: cycle.legs, fill })

@@ -3,7 +3,7 @@
 use argil_curve::DVec2;
 
 /// A failure with its reason and place. A plan is whole or it is an error: nothing is left out or hopped over.
-#[derive(Debug, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PlanError {
     /// A setting is outside its range.
@@ -44,7 +44,7 @@ pub enum PlanError {
 }
 
 /// What went wrong in a layer.
-#[derive(Debug, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LayerFault {
     /// No cycle was found.

@@ -15,12 +15,22 @@ use crate::descent::PlannedLayer;
 /// Share of the longest step that is used, so that starts on the seam stage's own spacing reach each other too.
 const STEP: f64 = 0.85;
 
+/// Share of that step that is tried first where a wall leads up: a long step sags.
+const SHORT: f64 = 0.5;
+
 /// Share of `ε_across` within which a wall must pass, for the same reason.
 const HELD: f64 = 0.65;
 
 /// How far ahead of a start that no wall leads up to the strand is asked to go, in w: towards a wall that does, and no farther than
 /// a step.
 const AHEAD: f64 = 0.6;
+
+/// Directions from which steps are tried, and how many of them may be shut: along a bend, steps graze the strand itself.
+const DIRECTIONS: usize = 16;
+const SHUT_AT_MOST: usize = 3;
+
+/// What a place costs that what holds it need not lead up to, in squares of the longest step.
+const SHUT: f64 = 30.0;
 
 /// Spacing of the places on walls that are looked at for one that leads up, in w.
 const LOOK: f64 = 0.5;
@@ -61,54 +71,94 @@ pub(crate) fn foothold(
     seam: &SeamSettings,
 ) -> Option<Foothold> {
     let [here, below] = walls;
-    let count = (cycle.length() / seam.spacing).ceil().clamp(4.0, 1e6) as usize;
-    let nearest = above.map_or(0.0, |(_, start)| cycle.nearest(start.at).s);
-    let places = (0..count).map(|k| k as f64 * cycle.length() / count as f64).chain([nearest]);
-    let leads_up = |place: DVec2| {
-        above.is_none_or(|(next, start)| {
-            let step = Segment::new(place, start.at);
-            step.length() <= STEP * seam.reach && is_clear(&step, start.arc, next)
-        })
-    };
+    let reach = STEP * seam.reach;
     let held = HELD * seam.across;
-    let places = places.map(|arc| (arc, cycle.point_at(arc))).filter(|&(_, place)| leads_up(place));
-    let rated = places.map(|(arc, at)| {
-        let wall = below.nearest(at);
-        let led = wall.is_some_and(|wall| is_clear(&Segment::new(wall.point, at), arc, cycle));
-        let hanging = wall.map_or(f64::INFINITY, |wall| (wall.distance - held).max(0.0));
-        let over_wall = led && hanging <= 0.0;
-        let step = above.map_or(0.0, |(_, start)| start.at.distance(at));
-        (led, hanging, step, Foothold { at, arc, over_wall, toward: None })
-    });
-    let rated: Vec<(bool, f64, f64, Foothold)> = rated.collect();
-    let best = |led: bool, far: &dyn Fn(&Foothold, f64) -> f64| {
-        rated
-            .iter()
-            .filter(|place| place.0 == led)
-            .map(|&(_, hanging, step, place)| (far(&place, hanging), step, place))
-            .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)))
-            .map(|(_, _, place)| place)
+    let rated: Vec<Place> = places_within(cycle, above, reach, seam)
+        .into_iter()
+        .map(|(arc, step)| {
+            let at = cycle.point_at(arc);
+            let wall = below.nearest(at);
+            let led = wall.is_some_and(|wall| is_clear(&Segment::new(wall.point, at), arc, cycle));
+            let hanging = wall.map_or(f64::INFINITY, |wall| (wall.distance - held).max(0.0));
+            let over_wall = led && hanging <= 0.0;
+            let lasting = over_wall || is_open(cycle, arc, seam.across);
+            Place { led, lasting, hanging, step, start: Foothold { at, arc, over_wall, toward: None } }
+        })
+        .collect();
+    let best = |fits: &dyn Fn(&Place) -> bool, far: &dyn Fn(&Place) -> f64| {
+        let fitting = rated.iter().filter(|place| fits(place)).map(|place| (far(place), place));
+        let nearest = fitting.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.step.total_cmp(&b.1.step)));
+        nearest.map(|(_, place)| place.start)
     };
-    let trapped = || {
-        let from = above.map_or(cycle.point_at(nearest), |(_, start)| start.at);
+    let led = |fits: &dyn Fn(&Place) -> bool| best(&|place| place.led && fits(place), &|place| place.hanging);
+    let trapped = |fits: &dyn Fn(&Place) -> bool| {
+        let from = above.map_or_else(|| cycle.point_at(0.0), |(_, start)| start.at);
         let toward = wall_in_sight(from, here, below, LOOK / 0.73 * seam.reach);
-        // What holds a start may pass on either side of it.
-        let shut = |place: &Foothold| if is_open(cycle, place.arc, seam.across) { 0.0 } else { seam.reach };
-        let far = |place: &Foothold, hanging: f64| {
-            shut(place) + toward.map_or(hanging, |wall| wall.distance(place.at))
-        };
-        best(false, &far).map(|place| Foothold { toward, ..place })
+        let far = |place: &Place| toward.map_or(place.hanging, |wall| wall.distance(place.start.at));
+        let start = best(&|place| !place.led && fits(place), &far)?;
+        Some(Foothold { toward: toward.or_else(|| off_wall(start.at, below, seam.across)), ..start })
     };
-    best(true, &|_, hanging| hanging).or_else(trapped)
+    let short = SHORT * reach;
+    led(&|place| place.start.over_wall && place.step <= short)
+        .or_else(|| led(&|place| place.lasting))
+        .or_else(|| trapped(&|place| place.lasting))
+        .or_else(|| led(&|_| true))
+        .or_else(|| trapped(&|_| true))
 }
 
-/// Whether a cycle may be stepped on at an arc from as far away as what holds it may be, from either side.
+/// A place beside a start, on the side from which steps lead up to it: farther from the nearest wall below by as much as what holds it
+/// may be. Strand that only came near the start could stay on the wall's side. `None` where a wall stands there.
+fn off_wall(start: DVec2, below: &SegmentIndex, across: f64) -> Option<DVec2> {
+    let wall = below.nearest(start)?;
+    let away = across * (start - wall.point).normalize_or_zero();
+    let beyond = below.nearest(start + 2.0 * away)?;
+    (beyond.distance >= wall.distance.max(2.0 * across)).then_some(start + away)
+}
+
+/// A place on a cycle where it may begin.
+struct Place {
+    /// Whether nothing lies between it and the nearest wall below.
+    led: bool,
+    /// Whether something that holds it leads up to it, wherever that passes.
+    lasting: bool,
+    /// How far the nearest wall below is from holding it, mm.
+    hanging: f64,
+    /// The step from here to the start above, mm.
+    step: f64,
+    start: Foothold,
+}
+
+/// The arcs of a cycle from which a step no longer than `reach` leads up to the start above, with the lengths of the steps: places on
+/// the seam stage's own spacing, and of every stretch its beginning and the nearest place.
+fn places_within(
+    cycle: &ClosedCurve,
+    above: Option<(&ClosedCurve, Foothold)>,
+    reach: f64,
+    seam: &SeamSettings,
+) -> Vec<(f64, f64)> {
+    let count = (cycle.length() / seam.spacing).ceil().clamp(4.0, 1e6) as usize;
+    let spaced = (0..count).map(|k| k as f64 * cycle.length() / count as f64);
+    let Some((next, start)) = above else { return spaced.map(|arc| (arc, 0.0)).collect() };
+    let near = (0..cycle.segment_count())
+        .map(|k| cycle.on_segment(k, start.at))
+        .filter(|on| on.distance <= reach)
+        .flat_map(|on| [on.s, cycle.arc_of(on.segment)]);
+    let arcs = spaced.chain(near);
+    let steps = arcs.map(|arc| (arc, Segment::new(cycle.point_at(arc), start.at)));
+    steps
+        .filter(|(_, step)| step.length() <= reach && is_clear(step, start.arc, next))
+        .map(|(arc, step)| (arc, step.length()))
+        .collect()
+}
+
+/// Whether what holds a cycle at an arc leads up to it, wherever that passes: the steps that come from as far away as that may be
+/// are clear from nearly all directions. On a straight strand they are, and at the tip of a narrow hairpin; on one of its legs they are
+/// not, since what holds it may pass beyond the other leg.
 fn is_open(cycle: &ClosedCurve, arc: f64, across: f64) -> bool {
     let at = cycle.point_at(arc);
-    let ahead =
-        cycle.point_at(cycle.wrapped(arc + 0.1 * across)) - cycle.point_at(cycle.wrapped(arc - 0.1 * across));
-    let side = across * ahead.normalize_or(DVec2::X).perp();
-    [side, -side].into_iter().all(|side| is_clear(&Segment::new(at + side, at), arc, cycle))
+    let towards = |k: usize| across * DVec2::from_angle(k as f64 * std::f64::consts::TAU / DIRECTIONS as f64);
+    let is_shut = |k: &usize| !is_clear(&Segment::new(at + towards(*k), at), arc, cycle);
+    (0..DIRECTIONS).filter(is_shut).nth(SHUT_AT_MOST).is_none()
 }
 
 /// A chain of starts through all cycles planned so far and `cycle`, which lies below them, with other starts than were kept open: where
@@ -129,7 +179,14 @@ pub(crate) fn rechained(
         std::iter::once(0.0).chain(planned.iter().rev().map(|layer| layer.foothold)).collect();
     let held = HELD * seam.across;
     let hanging = |p: DVec2| below.nearest(p).map_or(0.0, |wall| (wall.distance - held).max(0.0));
-    let cost = |layer: usize, p: DVec2| if layer == 0 { hanging(p).powi(2) } else { 0.0 };
+    let cost = |layer: usize, p: DVec2| {
+        let here = || {
+            let far = hanging(p);
+            let shut = far > 0.0 && !is_open(cycle, cycle.nearest(p).s, seam.across);
+            far.powi(2) + if shut { SHUT * seam.reach.powi(2) } else { 0.0 }
+        };
+        if layer == 0 { here() } else { 0.0 }
+    };
     let mut arcs = seam_chain_among(&cycles, &also, seam, &cost).ok()?;
     let arc = arcs.remove(0);
     let at = cycle.point_at(arc);
@@ -200,7 +257,7 @@ mod tests {
         // A strand that runs out to the wall on the right, now a little higher, now a little lower.
         let strand = |layer: i32| {
             let lift = 0.07 * f64::from(layer % 2);
-            let points = [(4.0, lift), (10.0, 0.2 + lift), (10.0, lift - 0.2)];
+            let points = [(4.0, lift - 0.7), (4.0, lift + 0.7), (10.0, lift + 0.7), (10.0, lift - 0.7)];
             ClosedCurve::new(points.map(|(x, y)| DVec2::new(x, y)).to_vec()).unwrap()
         };
         let on = |curve: &ClosedCurve, p: DVec2| {
@@ -208,13 +265,37 @@ mod tests {
             Foothold { at: near.point, arc: near.s, over_wall: false, toward: None }
         };
         let mut start = on(&strand(0), DVec2::new(4.0, 0.0));
-        for layer in 1..10 {
+        for layer in 1..20 {
             let next =
                 foothold(&strand(layer), Some((&strand(layer - 1), start)), [&none, &walls], &seam).unwrap();
             assert!(next.at.distance(start.at) <= seam.reach);
             start = next;
         }
         assert!(walls.distance(start.at) <= seam.across, "{start:?} has reached the wall");
+    }
+
+    #[test]
+    fn starts_on_a_narrow_hairpin_stay_at_its_tip() {
+        let seam = SeamSettings::for_width(1.5);
+        let hairpin = [(0.0, 0.0), (8.0, 0.05), (0.0, 0.1)].map(|(x, y)| DVec2::new(x, y));
+        let cycle = ClosedCurve::new(hairpin.to_vec()).unwrap();
+        let on = |x: f64| cycle.nearest(DVec2::new(x, 0.0)).s;
+        assert!(is_open(&cycle, on(9.0), seam.across), "from wherever the strand below may pass");
+        assert!(!is_open(&cycle, on(6.0), seam.across), "not from beyond the other leg");
+        let walls = SegmentIndex::of_curves([&ring(12.0)], 1.5);
+        let none = SegmentIndex::new(Vec::new(), 1.5);
+        let above = Foothold { at: DVec2::new(7.8, 0.1), arc: 0.0, over_wall: false, toward: None };
+        let start = foothold(&cycle, Some((&ring(7.8), above)), [&none, &walls], &seam).unwrap();
+        assert_eq!(start.at, DVec2::new(8.0, 0.05));
+    }
+
+    #[test]
+    fn a_start_that_walls_do_not_lead_up_to_asks_for_strand_on_its_own_side() {
+        let walls = SegmentIndex::of_curves([&ring(10.0)], 1.5);
+        let beside = off_wall(DVec2::new(9.8, 0.0), &walls, 0.45).unwrap();
+        assert!(beside.distance(DVec2::new(9.35, 0.0)) < 0.05, "{beside:?}");
+        let close = SegmentIndex::of_curves([&ring(10.0), &ring(9.2)], 1.5);
+        assert_eq!(off_wall(DVec2::new(9.8, 0.0), &close, 0.45), None, "another wall stands there");
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! The exact check of a smoothed layer, and the repair that pulls it back towards its candidate.
 
-use argil_curve::{ClosedCurve, DVec2, SegmentIndex, self_crossings};
+use argil_curve::{ClosedCurve, DVec2, SegmentIndex, on_grid, self_crossings};
 use argil_support::{Criterion, unsupported_spans};
 
 /// What is wrong with a path, if anything.
@@ -52,7 +52,7 @@ impl Check<'_> {
     /// Rounds free points to the output grid.
     pub(crate) fn rounded(&self, points: &mut [DVec2], fixed: &[bool]) {
         for (point, _) in points.iter_mut().zip(fixed).filter(|(_, fixed)| !**fixed) {
-            *point = (*point / self.grid).round() * self.grid;
+            *point = on_grid(*point, self.grid);
         }
     }
 

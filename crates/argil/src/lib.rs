@@ -27,6 +27,9 @@ mod blunt;
 mod clearance;
 mod climb;
 mod descent;
+#[cfg(feature = "serde")]
+mod document;
+mod ends;
 mod error;
 mod foothold;
 mod hold;
@@ -36,6 +39,8 @@ mod passage;
 mod plan;
 mod planner;
 mod settings;
+mod skirt;
+mod spiral;
 pub mod stages;
 mod starts;
 mod watch;
@@ -55,10 +60,12 @@ pub use argil_strand as strand;
 pub use argil_support as support;
 pub use argil_taut as taut;
 
+#[cfg(feature = "serde")]
+pub use document::Document;
 pub use error::{LayerFault, PlanError};
-pub use plan::{LayerReport, Plan, StageTimes};
+pub use plan::{Climb, InfillChoice, LayerReport, LevelCause, Plan, SkirtLaid, StageTimes};
 pub use planner::{Planner, Progress};
-pub use settings::{Material, Settings};
+pub use settings::{Bed, Infill, Material, Settings, Skirt};
 
 /// The examples of the pages for readers, so that they stay true.
 #[cfg(doctest)]
@@ -69,6 +76,4 @@ mod pages {
     struct Workspace;
     #[doc = include_str!("../../../docs/SLICERS.md")]
     struct Slicers;
-    #[doc = include_str!("../../argil-route/README.md")]
-    struct Route;
 }

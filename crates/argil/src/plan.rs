@@ -6,7 +6,9 @@ use argil_slice::Loss;
 use argil_strand::Strand;
 
 /// A finished plan: one strand, and what is known about it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Plan {
     /// The whole print as one polyline.
     pub strand: Strand,
@@ -14,13 +16,42 @@ pub struct Plan {
     pub layers: Vec<LayerReport>,
     /// What of the model is not, or not quite, printed: too thin, or broken in the mesh.
     pub losses: Vec<Loss>,
+    /// The skirt as it was laid; `None` where none was asked for, or where there is no room for one or no way from it to the part.
+    pub skirt: Option<SkirtLaid>,
+    /// What [`Infill::Auto`](crate::Infill::Auto) has chosen; `None` for other plans.
+    pub infill: Option<InfillChoice>,
     /// Where the time went. The only part of a plan that differs from run to run.
     pub times: StageTimes,
+}
+
+/// The skirt of a plan.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct SkirtLaid {
+    /// Turns round the part: as many as were asked for, or as many as the bed has room for.
+    pub turns: usize,
+    /// From the lowest layer's strand to the innermost turn, middle to middle, mm: as asked for, or as the bed has room for.
+    pub distance: f64,
+    /// Length, mm, with the way to the part.
+    pub length: f64,
+}
+
+/// Which of two plans was taken: the shorter strand.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct InfillChoice {
+    /// Whether it is the one with infill.
+    pub taken: bool,
+    /// Length of the strand with infill, mm; `None` where there is no such plan.
+    pub with_mm: Option<f64>,
+    /// Length of the strand that holds the same with support from the walls, mm; `None` where there is no such plan.
+    pub without_mm: Option<f64>,
 }
 
 /// What happened in a layer.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct LayerReport {
     /// Index of the layer in the slicing, 0 at the bottom.
     pub index: usize,
@@ -32,9 +63,12 @@ pub struct LayerReport {
     pub roots: usize,
     /// Length of walls, mm.
     pub wall_length: f64,
-    /// Length of fill, mm: floors, roofs and undersides.
+    /// Length of fill, mm: floors, roofs, undersides and infill.
     #[cfg_attr(feature = "serde", serde(default))]
     pub fill_length: f64,
+    /// Of it, infill.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub infill_length: f64,
     /// Diameter of the widest disc in a filled zone that stays bare, mm; 0 where none is wider than a third of a bead.
     #[cfg_attr(feature = "serde", serde(default))]
     pub widest_bare: f64,
@@ -42,10 +76,62 @@ pub struct LayerReport {
     pub free_length: f64,
     /// Vertices that were pulled back after smoothing, so that the layer above stays held.
     pub pulled_back: usize,
+    /// How the strand comes up to it.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub climb: Climb,
+    /// Why it does not rise, where a spiral was asked for.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub level_because: Option<LevelCause>,
+    /// The thinnest and the thickest bead, mm, apart from where it begins and ends.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub bead_heights: [f64; 2],
+}
+
+/// How the strand comes up to a layer.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
+pub enum Climb {
+    /// By a short step at its beginning; then it lies level.
+    #[default]
+    Step,
+    /// Along its whole cycle, from the end of the layer below.
+    Rising,
+    /// Not at all: it lies level on a layer that rose, and its bead grows thinner until it is nothing.
+    Levelling,
+}
+
+/// Why a layer of a spiral does not rise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
+#[non_exhaustive]
+pub enum LevelCause {
+    /// It lies on the bed.
+    Bed,
+    /// It is the rim, which is level.
+    Rim,
+    /// Its cycle passes the places of the one below in another order, or goes a much longer way between them: beads would be too
+    /// thick or too thin.
+    Order,
+    /// Its cycle is so short that it would rise too steeply.
+    Short,
+    /// There are too few layers between level ones to share their rise.
+    Few,
 }
 
 /// Time spent in each stage.
+///
+/// # Example
+/// ```
+/// use std::time::Duration;
+/// use argil::StageTimes;
+/// let times = StageTimes { slice: Duration::from_millis(20), route: Duration::from_millis(30), ..StageTimes::default() };
+/// assert_eq!(times.total(), Duration::from_millis(50));
+/// assert_eq!(times.listed()[0], ("slice", Duration::from_millis(20)));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct StageTimes {
     /// Cutting the mesh and insetting walls.
     pub slice: Duration,

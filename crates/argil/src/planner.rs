@@ -5,20 +5,22 @@ use std::ops::ControlFlow;
 use argil_mesh::Mesh;
 use argil_slice::{Layer, outer_walls};
 
-use crate::climb::strand;
+use crate::climb::climbed;
 use crate::descent::{Descent, timed, wall_curves};
-use crate::model::model;
+use crate::model::{LANES, model};
 use crate::stages::{
     BestChain, ElasticCurve, Excursions, FewestPoints, PlaneSlices, PulledTaut, Route, Safeguard, Seam,
     Slice, SlopedSafeguard, Smooth, Support, Tauten,
 };
 use crate::watch::{Watch, Watched};
-use crate::{Plan, PlanError, Settings, StageTimes};
+use crate::{Infill, InfillChoice, LayerReport, Plan, PlanError, Settings, StageTimes};
 
 /// How far a plan has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Progress {
+    /// No news: a stage that takes long asks whether it is to go on.
+    Working,
     /// The mesh is cut into this many layers.
     Sliced {
         /// How many.
@@ -134,8 +136,8 @@ impl<S: Slice, G: Safeguard, U: Support, R: Route, E: Smooth, T: Tauten, C: Seam
         })
     }
 
-    /// One strand for a mesh, for as long as `observe` wants it to go on. It is asked between stages and between layers, and in
-    /// each layer before a cycle is sought and before it is smoothed.
+    /// One strand for a mesh, for as long as `observe` wants it to go on. It is asked between stages and between layers, in
+    /// each layer before a cycle is sought and before it is smoothed, and every few layers by stages that work on all of them.
     ///
     /// # Errors
     /// [`PlanError::Cancelled`] when it breaks off; else see [`PlanError`]. The planner can be used again in either case.
@@ -161,8 +163,11 @@ impl<S: Slice, G: Safeguard, U: Support, R: Route, E: Smooth, T: Tauten, C: Seam
         observe: &mut dyn FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<Plan, PlanError> {
         let mut times = StageTimes::default();
-        let layers = timed(&mut times.slice, || self.slices(mesh, settings))?;
         let watch = Watch::new(observe);
+        settings.check()?;
+        let goes_on = &mut || watch.tell(Progress::Working);
+        let layers = timed(&mut times.slice, || self.slice.layers_while(mesh, settings, goes_on))?;
+        let layers = layers.ok_or(PlanError::Cancelled)?;
         watch.tell(Progress::Sliced { layers: layers.len() });
         self.plan_from(&layers, settings, times, &watch)
     }
@@ -194,14 +199,53 @@ impl<S: Slice, G: Safeguard, U: Support, R: Route, E: Smooth, T: Tauten, C: Seam
         &mut self,
         layers: &[Layer],
         settings: &Settings,
+        times: StageTimes,
+        watch: &Watch<'_>,
+    ) -> Result<Plan, PlanError> {
+        if settings.infill != Infill::Auto {
+            return self.plan_with(layers, (settings, settings.infill), times, watch);
+        }
+        let without = self.plan_with(layers, (settings, Infill::None), times, watch);
+        watch.check()?;
+        let spent = without.as_ref().map_or(times, |plan| plan.times);
+        let with = self.plan_with(layers, (settings, Infill::Auto), spent, watch);
+        watch.check()?;
+        shorter(with, without)
+    }
+
+    /// A plan with this infill, whose floors and skins hold water if such a plan can be had.
+    fn plan_with(
+        &mut self,
+        layers: &[Layer],
+        (settings, infill): (&Settings, Infill),
+        times: StageTimes,
+        watch: &Watch<'_>,
+    ) -> Result<Plan, PlanError> {
+        let [tight, wide] = LANES;
+        let first = self.plan_filled(layers, (settings, infill, tight), times, watch);
+        let is_closed = settings.floor > 0 || settings.skin > 0;
+        if !is_closed || !is_fault(&first) {
+            return first;
+        }
+        let second = self.plan_filled(layers, (settings, infill, wide), times, watch);
+        if is_fault(&second) { first } else { second }
+    }
+
+    fn plan_filled(
+        &mut self,
+        layers: &[Layer],
+        (settings, infill, lanes): (&Settings, Infill, f64),
         mut times: StageTimes,
         watch: &Watch<'_>,
     ) -> Result<Plan, PlanError> {
         watch.check()?;
         let walls = layers.iter().map(wall_curves).collect::<Result<Vec<_>, _>>()?;
-        let models = timed(&mut times.fill, || model(layers, settings))?;
+        let models = timed(&mut times.fill, || model(layers, settings, infill, lanes))?;
         let outer: Vec<_> = layers.iter().map(outer_walls).collect();
-        let safeguards = timed(&mut times.safeguard, || self.safeguard.regions(&outer, settings));
+        let goes_on = &mut || watch.tell(Progress::Working);
+        let safeguards =
+            timed(&mut times.safeguard, || self.safeguard.regions_while(&outer, settings, goes_on));
+        let safeguards = safeguards.ok_or(PlanError::Cancelled)?;
         let descended = Descent {
             settings,
             support: &mut self.support,
@@ -222,13 +266,42 @@ impl<S: Slice, G: Safeguard, U: Support, R: Route, E: Smooth, T: Tauten, C: Seam
         if planned.is_empty() {
             return Err(PlanError::Nothing);
         }
-        let seam = &mut self.seam;
-        let strand = timed(&mut times.seam, || strand(&planned, seam, settings, self.checked))?;
+        let seam = &mut Watched { stage: &mut self.seam, watch };
+        let joined = timed(&mut times.seam, || climbed(&planned, seam, settings, self.checked));
+        // A chain of which the search was ended fails as well.
+        watch.check()?;
+        let climbed = joined?;
+        let mut reports: Vec<LayerReport> = planned.iter().map(|layer| layer.report).collect();
+        for (report, lie) in reports.iter_mut().zip(&climbed.lies) {
+            (report.climb, report.level_because, report.bead_heights) = (lie.climb, lie.cause, lie.beads);
+        }
         Ok(Plan {
-            strand,
-            layers: planned.iter().map(|layer| layer.report).collect(),
+            strand: climbed.strand,
+            layers: reports,
             losses: layers.iter().flat_map(|layer| layer.losses.iter().cloned()).collect(),
+            skirt: climbed.skirt,
+            infill: None,
             times,
         })
     }
+}
+
+/// Whether there is no plan because of how the layers came out.
+fn is_fault(plan: &Result<Plan, PlanError>) -> bool {
+    matches!(plan, Err(PlanError::Layer { .. } | PlanError::Seam(_)))
+}
+
+/// The plan with the shorter strand, and both lengths; the one with infill only where it is shorter.
+fn shorter(with: Result<Plan, PlanError>, without: Result<Plan, PlanError>) -> Result<Plan, PlanError> {
+    let length = |plan: &Result<Plan, PlanError>| plan.as_ref().ok().map(|plan| plan.strand.length());
+    let [with_mm, without_mm] = [&with, &without].map(length);
+    let taken = match (with_mm, without_mm) {
+        (Some(with), Some(without)) => with < without,
+        (with, _) => with.is_some(),
+    };
+    // Both have taken their time.
+    let times = with.as_ref().map_or(StageTimes::default(), |plan| plan.times);
+    let plan = if taken { with } else { without }?;
+    let times = if with_mm.is_some() { times } else { plan.times };
+    Ok(Plan { infill: Some(InfillChoice { taken, with_mm, without_mm }), times, ..plan })
 }

@@ -13,6 +13,7 @@ use crate::PlanError;
 /// What a paste bears, measured by test prints; both in bead widths w.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Material {
     /// `ε_across` / w: how far a bead may lie beside the one below. The paper measured 0.3 for Laguna clay with 33 % water.
     pub across: f64,
@@ -27,9 +28,78 @@ impl Default for Material {
     }
 }
 
-/// Settings of a plan. Everything that is not here follows from these, in proportion to the bead width.
+/// What is laid inside of the walls, beside floors and skins.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum Infill {
+    /// Nothing: what has to be held inside is held by strand from the walls.
+    #[default]
+    None,
+    /// Lanes all over, of so large a share of clay: above 0, at most 1.
+    Ratio(f64),
+    /// Lanes below what is filled, as dense and as far down as it needs to be held, or nothing: whichever makes the shorter strand. Both
+    /// are planned.
+    Auto,
+}
+
+/// Turns on the bed round the lowest layer, laid before it and without a break: paste comes evenly when the part begins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Skirt {
+    /// How often it goes round. More steady the flow and take more paste.
+    pub turns: usize,
+    /// From the lowest layer's strand to the innermost turn, middle to middle, in w.
+    pub distance: f64,
+    /// The bed that it must stay on, if it is known: where there is not enough room the skirt comes nearer, then has fewer turns,
+    /// and at last is left out.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub bed: Option<Bed>,
+}
+
+impl Default for Skirt {
+    /// Two turns at three bead widths, on a bed of any size.
+    fn default() -> Self {
+        Self { turns: 2, distance: 3.0, bed: None }
+    }
+}
+
+/// What of the bed the nozzle reaches, mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
+pub enum Bed {
+    /// A rectangle along the axes.
+    Rectangle {
+        /// The corner with the least coordinates.
+        low: [f64; 2],
+        /// The corner with the greatest.
+        high: [f64; 2],
+    },
+    /// A disc.
+    Disc {
+        /// Its middle.
+        middle: [f64; 2],
+        /// Its radius.
+        radius: f64,
+    },
+}
+
+/// Settings of a plan. Everything that is not here follows from these, in proportion to the bead width.
+///
+/// # Example
+/// ```
+/// use argil::{Material, Settings};
+/// let stiff = Material { across: 0.35, ..Material::default() };
+/// let settings = Settings { walls: 2, material: stiff, ..Settings::for_width(3.0) };
+/// assert_eq!(settings.layer_height, 1.0);
+/// assert!((settings.criterion().across - 1.05).abs() < 1e-12); // mm
+/// assert!(settings.check().is_ok());
+/// assert!(Settings { walls: 0, ..settings }.check().is_err());
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Settings {
     /// Bead width w, mm (paper: 1.5, from a 0.6 mm nozzle).
     pub width: f64,
@@ -43,6 +113,23 @@ pub struct Settings {
     /// How many layers close each face that looks up or down and is wider than a bead.
     #[cfg_attr(feature = "serde", serde(default))]
     pub skin: usize,
+    /// Whether the layers rise evenly along their cycles wherever they can, so that no step is left between them: a spiral. The
+    /// path stays the same in the plane.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub spiral: bool,
+    /// Turns on the bed before the part, in the same strand.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub skirt: Option<Skirt>,
+    /// Whether rings of floors and skins that lie in each other without a branch become double spirals, which hardly turn back.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub spirals: bool,
+    /// What is laid inside of the walls.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub infill: Infill,
+    /// Whether the mesh is a sheet without thickness, as for vases in a spiral: its sections are the walls' paths themselves. It has one wall;
+    /// it may have a floor, but neither skins nor infill, since nobody knows which side of it is inside.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub surface: bool,
     /// What the paste bears.
     pub material: Material,
     /// Step of the output coordinates, mm. Planning rounds to it before the last checks.
@@ -63,6 +150,9 @@ const REACH: f64 = 0.79;
 /// what is left of `ε_across` becomes a held length along the strand, so that points can lie farther apart.
 const ENVELOPE: f64 = 0.65;
 
+/// Share of what the paste bears that sparse fill relies on, as support does.
+const HELD: f64 = 0.95;
+
 /// How much of the envelope demands may use up when they are moved before smoothing.
 const SLACK: f64 = 0.9;
 
@@ -78,6 +168,12 @@ const STIFFNESS: f64 = 0.05;
 /// Floors and skins of more layers than this are solid parts, or a mistake.
 const MOST_CLOSED: usize = 1000;
 
+/// More turns of a skirt than this are a mistake.
+const MOST_TURNS: usize = 100;
+
+/// The least distance of a skirt, in w: nearer, and it is hard to part from the part.
+pub(crate) const NEAREST_SKIRT: f64 = 1.5;
+
 impl Settings {
     /// Defaults for a bead width: a third of it as layer height, one wall, the paper's clay.
     #[must_use]
@@ -88,6 +184,11 @@ impl Settings {
             walls: 1,
             floor: 0,
             skin: 0,
+            spiral: false,
+            skirt: None,
+            spirals: false,
+            infill: Infill::None,
+            surface: false,
             material: Material::default(),
             grid: 1e-4,
         }
@@ -123,9 +224,41 @@ impl Settings {
         if self.walls == 0 || self.walls > 100 {
             return Err(PlanError::Setting { name: "walls", value: self.walls as f64, expected: "1 to 100" });
         }
+        if let Infill::Ratio(value) = self.infill
+            && !(value > 0.0 && value <= 1.0)
+        {
+            return Err(PlanError::Setting { name: "infill", value, expected: "above 0 and at most 1" });
+        }
+        let for_solids = [("walls", self.walls.saturating_sub(1)), ("skin", self.skin)];
+        if let Some((name, _)) = for_solids.into_iter().find(|&(_, asked)| self.surface && asked > 0) {
+            let value = if name == "walls" { self.walls } else { self.skin } as f64;
+            return Err(PlanError::Setting {
+                name,
+                value,
+                expected: "left out for a sheet without thickness",
+            });
+        }
+        if self.surface && self.infill != Infill::None {
+            let value = if let Infill::Ratio(share) = self.infill { share } else { 1.0 };
+            let expected = "left out for a sheet without thickness";
+            return Err(PlanError::Setting { name: "infill", value, expected });
+        }
         for (name, value) in [("floor", self.floor), ("skin", self.skin)] {
             if value > MOST_CLOSED {
                 return Err(PlanError::Setting { name, value: value as f64, expected: "at most 1000" });
+            }
+        }
+        if let Some(Skirt { turns, distance, .. }) = self.skirt {
+            if turns == 0 || turns > MOST_TURNS {
+                return Err(PlanError::Setting {
+                    name: "skirt.turns",
+                    value: turns as f64,
+                    expected: "1 to 100",
+                });
+            }
+            if !(NEAREST_SKIRT..=1e4).contains(&distance) {
+                let expected = "1.5 to 10,000 bead widths";
+                return Err(PlanError::Setting { name: "skirt.distance", value: distance, expected });
             }
         }
         Ok(())
@@ -145,6 +278,7 @@ impl Settings {
             width: self.width,
             walls: self.walls,
             grid: self.grid,
+            surface: self.surface,
             ..SliceSettings::default()
         }
     }
@@ -198,6 +332,17 @@ impl Settings {
             reach: REACH * self.width,
             ..SeamSettings::for_width(self.width)
         }
+    }
+
+    /// Lanes so far apart hold what lies across them: it bridges the gap, but for what either lane holds beside itself.
+    pub(crate) fn bridged(&self) -> f64 {
+        let Criterion { across, along } = self.criterion();
+        (HELD * (along + 2.0 * across)).max(self.width)
+    }
+
+    /// How far an end of a lane may lie beyond the one below, mm.
+    pub(crate) fn retreat(&self) -> f64 {
+        HELD * self.criterion().across
     }
 
     /// How far a strand may pass from a point that it supports, mm.

@@ -2,6 +2,31 @@
 //!
 //! A trait says what the planner needs from a stage, no more; what a stage keeps in mind between layers is its own
 //! affair (methods take `&mut self` where a workspace is worth keeping). The structs are argil's own stages.
+//!
+//! ```
+//! use argil::curve::{ClosedCurve, SegmentIndex};
+//! use argil::stages::{FewestPoints, Support};
+//! use argil::support::SupportPoint;
+//! use argil::{Planner, Settings};
+//!
+//! /// Argil's own support, counted.
+//! struct Counted(usize);
+//!
+//! impl Support for Counted {
+//!     fn points(&mut self, above: &ClosedCurve, walls: &SegmentIndex, settings: &Settings) -> Vec<SupportPoint> {
+//!         let points = FewestPoints.points(above, walls, settings);
+//!         self.0 += points.len();
+//!         points
+//!     }
+//! }
+//!
+//! let Planner { slice, safeguard, route, smooth, taut, seam, checked, .. } = Planner::default();
+//! let mut planner = Planner { slice, safeguard, support: Counted(0), route, smooth, taut, seam, checked };
+//! let mesh = argil::mesh::Mesh::cuboid([0.0; 3], [9.0, 9.0, 3.0])?;
+//! planner.plan(&mesh, &Settings::default())?;
+//! assert_eq!(planner.support.0, 0, "every wall stands on the one below");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use argil_curve::{ClosedCurve, DVec2, SegmentIndex};
 use argil_elastic::{ElasticError, ElasticSolver, Path};
@@ -22,12 +47,35 @@ pub trait Slice {
     /// # Errors
     /// When the mesh cannot be cut.
     fn layers(&mut self, mesh: &Mesh, settings: &Settings) -> Result<Vec<Layer>, SliceError>;
+
+    /// The same for as long as `goes_on` says so, which is to be asked often; `None` where it has ended the work.
+    ///
+    /// # Errors
+    /// Those of [`Slice::layers`].
+    fn layers_while(
+        &mut self,
+        mesh: &Mesh,
+        settings: &Settings,
+        goes_on: &mut dyn FnMut() -> bool,
+    ) -> Result<Option<Vec<Layer>>, SliceError> {
+        if goes_on() { self.layers(mesh, settings).map(Some) } else { Ok(None) }
+    }
 }
 
 /// Builds the envelope that support keeps clear of.
 pub trait Safeguard {
     /// One region a layer, from the filled outermost walls of all layers, bottom first.
     fn regions(&mut self, outer: &[MultiPolygon<f64>], settings: &Settings) -> Vec<MultiPolygon<f64>>;
+
+    /// The same for as long as `goes_on` says so, which is to be asked often; `None` where it has ended the work.
+    fn regions_while(
+        &mut self,
+        outer: &[MultiPolygon<f64>],
+        settings: &Settings,
+        goes_on: &mut dyn FnMut() -> bool,
+    ) -> Option<Vec<MultiPolygon<f64>>> {
+        goes_on().then(|| self.regions(outer, settings))
+    }
 }
 
 /// Finds what a layer has to hold.
@@ -80,27 +128,45 @@ pub trait Seam {
 }
 
 /// Cuts by planes at mid-layer ([`argil_slice`]).
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PlaneSlices;
 
 impl Slice for PlaneSlices {
     fn layers(&mut self, mesh: &Mesh, settings: &Settings) -> Result<Vec<Layer>, SliceError> {
         argil_slice::slice(mesh, &settings.slicing())
     }
+
+    fn layers_while(
+        &mut self,
+        mesh: &Mesh,
+        settings: &Settings,
+        goes_on: &mut dyn FnMut() -> bool,
+    ) -> Result<Option<Vec<Layer>>, SliceError> {
+        argil_slice::slice_while(mesh, &settings.slicing(), goes_on)
+    }
 }
 
 /// Dilates the walls and erodes from layer to layer ([`argil_safeguard`]).
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SlopedSafeguard;
 
 impl Safeguard for SlopedSafeguard {
     fn regions(&mut self, outer: &[MultiPolygon<f64>], settings: &Settings) -> Vec<MultiPolygon<f64>> {
         argil_safeguard::safeguards(outer, &settings.safeguarding())
     }
+
+    fn regions_while(
+        &mut self,
+        outer: &[MultiPolygon<f64>],
+        settings: &Settings,
+        goes_on: &mut dyn FnMut() -> bool,
+    ) -> Option<Vec<MultiPolygon<f64>>> {
+        argil_safeguard::safeguards_while(outer, &settings.safeguarding(), goes_on)
+    }
 }
 
 /// The fewest points by the continuous criterion ([`argil_support`]).
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FewestPoints;
 
 impl Support for FewestPoints {
@@ -115,7 +181,7 @@ impl Support for FewestPoints {
 }
 
 /// Excursions from the walls, drawn without a crossing ([`argil_route`]).
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Excursions;
 
 impl Route for Excursions {
@@ -125,7 +191,7 @@ impl Route for Excursions {
 }
 
 /// Excursions as [`Excursions`] makes them, by tours of another solver.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ExcursionsBy<T>(pub T);
 
 impl<T: Tours> Route for ExcursionsBy<T> {
@@ -135,7 +201,7 @@ impl<T: Tours> Route for ExcursionsBy<T> {
 }
 
 /// The guarded elastic curve ([`argil_elastic`]).
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct ElasticCurve {
     solver: ElasticSolver,
 }
@@ -147,7 +213,7 @@ impl Smooth for ElasticCurve {
 }
 
 /// As short as the exact rule of support allows ([`argil_taut`]).
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PulledTaut;
 
 impl Tauten for PulledTaut {
@@ -157,7 +223,7 @@ impl Tauten for PulledTaut {
 }
 
 /// Leaves the path as it is.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LeftSlack;
 
 impl Tauten for LeftSlack {
@@ -167,7 +233,7 @@ impl Tauten for LeftSlack {
 }
 
 /// The best chain of starts over all layers ([`argil_seam`]).
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct BestChain;
 
 impl Seam for BestChain {

@@ -1,17 +1,21 @@
 //! Where each layer begins, and the steps from layer to layer.
 
-use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex};
+use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex, on_grid};
 use argil_route::Leg;
 use argil_seam::SeamError;
 use argil_strand::{Move, Role};
 
 use crate::Settings;
 use crate::descent::PlannedLayer;
+use crate::ends::Exposure;
+use crate::skirt::Ground;
 use crate::stages::Seam;
 
 /// What a start on a wall costs against one on free strand, in w²: the seam shows on a wall, while clay that is cut
 /// away hides it. A quarter of the longest step squared, so that it never outweighs a good chain.
 const VISIBLE: f64 = 0.13;
+/// What a start of a spiral's layer costs anywhere but on a wall, in w²: a longest step squared.
+const OFF_WALL: f64 = 0.6;
 /// How far from roots starts on a wall keep, in w, where there is a chain of such starts: a step that comes from the other side of the
 /// wall would make the strand pass straight through it, with less than a bead along the wall between. The second is tried
 /// where the first leaves no chain.
@@ -21,6 +25,9 @@ const ROOT_REACH: [f64; 2] = [1.1, 0.6];
 const SHORT: f64 = 0.5;
 /// What a start right at a root costs where neither does, in w²; less with the square of the distance.
 const AT_ROOT: f64 = 4.0;
+
+/// What a way from the skirt costs for each w of its length, in w².
+const FROM_SKIRT: f64 = 0.1;
 
 /// A start gives way along its cycle in shifts of this, in w, so many times at most before other parts of the cycle are tried.
 const SHIFT: f64 = 0.02;
@@ -34,8 +41,8 @@ const LEFT_OUT: f64 = 0.3;
 /// A layer opened at its start: the place, and the moves from there back to it.
 pub(crate) type Opened = (DVec2, Vec<Move>);
 
-/// The layers, each opened at a start that a short, clear and held step leads to. Where they are not `checked`, the starts stay where the
-/// seam stage wants them.
+/// The layers, each opened at a start that a short, clear and held step leads to; the lowest in sight of a skirt, if there is one. Where
+/// they are not `checked`, the starts stay where the seam stage wants them.
 ///
 /// # Errors
 /// Those of the seam stage; [`SeamError::NoStep`] where a start gives way on the grid and no other place of its layer will do.
@@ -44,8 +51,9 @@ pub(crate) fn opened_layers(
     seam: &mut impl Seam,
     settings: &Settings,
     checked: bool,
+    skirt: Option<&Ground>,
 ) -> Result<Vec<Opened>, SeamError> {
-    let stack = Stack::new(layers, settings);
+    let stack = Stack::new(layers, settings, skirt);
     let longest = settings.seaming().reach;
     let levels = levels(longest);
     let nothing = vec![Vec::new(); layers.len()];
@@ -86,13 +94,14 @@ enum Roots {
 }
 
 /// The best first. The last forbids no place.
-fn levels(longest: f64) -> [Level; 5] {
+fn levels(longest: f64) -> [Level; 6] {
     let [far, near] = ROOT_REACH;
     let short = SHORT * longest;
     let level = |reach, roots| Level { reach, roots };
     [
         level(short, Roots::Beyond(far)),
         level(short, Roots::Beyond(near)),
+        level(short, Roots::Graded),
         level(longest, Roots::Beyond(far)),
         level(longest, Roots::Beyond(near)),
         level(longest, Roots::Graded),
@@ -117,17 +126,38 @@ struct Stack<'a> {
     cycles: Vec<ClosedCurve>,
     sights: Vec<Sight>,
     footholds: Vec<f64>,
+    skirt: Option<&'a Ground>,
+    /// How much of the lowest layer can be seen, where the strand begins on it, and of the uppermost, where it ends.
+    ends: [Option<Exposure>; 2],
 }
 
 impl<'a> Stack<'a> {
-    fn new(layers: &'a [PlannedLayer], settings: &'a Settings) -> Self {
+    fn new(layers: &'a [PlannedLayer], settings: &'a Settings, skirt: Option<&'a Ground>) -> Self {
+        let sights: Vec<Sight> = layers.iter().map(|layer| Sight::of(layer, settings.width)).collect();
+        let exposure = |sight: &Sight| Exposure::of(&sight.walls, settings.width);
         Self {
             layers,
             settings,
             cycles: layers.iter().map(|layer| layer.curve.clone()).collect(),
-            sights: layers.iter().map(|layer| Sight::of(layer, settings.width)).collect(),
+            ends: [sights.first().filter(|_| skirt.is_none()).map(exposure), sights.last().map(exposure)],
+            sights,
             footholds: layers.iter().map(|layer| layer.foothold).collect(),
+            skirt,
         }
+    }
+
+    /// What it costs on a layer to begin or end the whole strand at a place, apart from what the step there costs; infinite where no
+    /// way leads there from the skirt.
+    fn end_cost(&self, layer: usize, p: DVec2, on_wall: bool) -> f64 {
+        let width = self.settings.width;
+        let from_skirt = match self.skirt.filter(|_| layer == 0) {
+            Some(skirt) => skirt.distance(p).map_or(f64::INFINITY, |way| FROM_SKIRT * way * width),
+            None => 0.0,
+        };
+        let [first, last] = &self.ends;
+        let first = first.as_ref().filter(|_| on_wall && layer == 0);
+        let last = last.as_ref().filter(|_| on_wall && layer + 1 == self.layers.len());
+        from_skirt + [first, last].into_iter().flatten().map(|exposure| exposure.cost(p)).sum::<f64>()
     }
 
     /// The first of the levels that some chain meets, and that chain; `left_out` are places, by layer, where none may start.
@@ -144,8 +174,16 @@ impl<'a> Stack<'a> {
                 if left_out[layer].iter().any(|place| place.distance(p) < LEFT_OUT * width) {
                     return f64::INFINITY;
                 }
-                let visible = |from_root: f64| (VISIBLE + level.beside_root(from_root)) * width * width;
-                self.sights[layer].on_wall(p).map_or(0.0, visible)
+                let from_root = self.sights[layer].on_wall(p);
+                let shown = match from_root {
+                    // A step that does not rise does not show, and where a lane leads away and back the last turn lies beside the first.
+                    _ if self.settings.spiral => {
+                        from_root.map_or(OFF_WALL, |from_root| level.beside_root(from_root))
+                    }
+                    Some(from_root) => VISIBLE + level.beside_root(from_root),
+                    None => 0.0,
+                };
+                shown * width * width + self.end_cost(layer, p, from_root.is_some())
             };
             match seam.starts(&self.cycles, &self.footholds, level.reach, self.settings, &cost) {
                 Ok(starts) => return Ok((k, starts)),
@@ -283,7 +321,7 @@ fn opened(layer: &PlannedLayer, start: f64, grid: f64) -> Opened {
     } else if near(points[(on.segment + 1) % n]) {
         (points[(on.segment + 1) % n], on.segment + 1)
     } else {
-        ((exact / grid).round() * grid, on.segment)
+        (on_grid(exact, grid), on.segment)
     };
     let mut moves: Vec<Move> =
         (0..n).map(|k| Move { to: points[(first + k + 1) % n], role: role(first + k) }).collect();

@@ -3,11 +3,12 @@
 use std::cell::{Cell, RefCell};
 use std::ops::ControlFlow;
 
-use argil_curve::DVec2;
+use argil_curve::{ClosedCurve, DVec2};
 use argil_elastic::{ElasticError, Path};
 use argil_route::{Cycle, LayerInput, RouteError};
+use argil_seam::SeamError;
 
-use crate::stages::{Route, Smooth};
+use crate::stages::{Route, Seam, Smooth};
 use crate::{PlanError, Progress, Settings};
 
 /// The observer of a plan, shared by those who tell it something.
@@ -61,5 +62,26 @@ impl<E: Smooth> Smooth for Watched<'_, '_, E> {
         } else {
             Err(ElasticError::LengthMismatch { list: "points", found: 0, expected: path.points.len() })
         }
+    }
+}
+
+impl<C: Seam> Seam for Watched<'_, '_, C> {
+    fn starts(
+        &mut self,
+        cycles: &[ClosedCurve],
+        footholds: &[f64],
+        reach: f64,
+        settings: &Settings,
+        cost: &dyn Fn(usize, DVec2) -> f64,
+    ) -> Result<Vec<f64>, SeamError> {
+        let (asked_in, goes_on) = (Cell::new(usize::MAX), Cell::new(true));
+        // A seam that goes from layer to layer asks what starts cost in each; where all are forbidden, it is soon at an end.
+        let watched = |layer: usize, start: DVec2| {
+            if asked_in.replace(layer) != layer {
+                goes_on.set(self.watch.tell(Progress::Working));
+            }
+            if goes_on.get() { cost(layer, start) } else { f64::INFINITY }
+        };
+        self.stage.starts(cycles, footholds, reach, settings, &watched)
     }
 }

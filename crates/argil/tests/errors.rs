@@ -16,22 +16,7 @@ use verdict::audited;
 
 /// A box with one corner at the origin, mm.
 fn block(x: f64, y: f64, z: f64) -> Mesh {
-    let corner = |k: u32| [x * f64::from(k & 1), y * f64::from(k >> 1 & 1), z * f64::from(k >> 2)];
-    let sides = vec![
-        [0, 2, 1],
-        [1, 2, 3],
-        [4, 5, 6],
-        [5, 7, 6],
-        [0, 1, 4],
-        [1, 5, 4],
-        [2, 6, 3],
-        [3, 6, 7],
-        [0, 4, 2],
-        [2, 4, 6],
-        [1, 3, 5],
-        [3, 7, 5],
-    ];
-    Mesh::new((0..8).map(corner).collect(), sides).expect("a box is a mesh")
+    Mesh::cuboid([0.0; 3], [x, y, z]).expect("a box is a mesh")
 }
 
 fn refusal(settings: &Settings) -> (&'static str, f64) {

@@ -1,4 +1,4 @@
-//! The g-code of ten models, byte by byte, as it was kept: a change of any byte is seen, and is either meant or a fault.
+//! The g-code of eleven plans, byte by byte, as it was kept: a change of any byte is seen, and is either meant or a fault.
 //!
 //! `ARGIL_KEEP=1 cargo test -p argil --test kept_bytes` keeps what is there now. Sums of many products have other last bits
 //! with fused multiplication than without, and another mathematical library has other sines, so that hashes are
@@ -12,22 +12,26 @@ use std::path::{Path, PathBuf};
 
 use argil::gcode::{GcodeSettings, write_gcode};
 use argil::mesh::{Ground, Mesh, Placement, Size};
-use argil::{Planner, Settings};
+use argil::{Planner, Settings, Skirt};
 use sample::sample;
 
 /// Bundled models by name, with the factor and the bead width that they are planned with, so that each takes a second or two.
-const MODELS: [(&str, f64, f64); 10] = [
+const MODELS: [(&str, f64, f64); 11] = [
     ("arch", 0.5, 2.0),
     ("cactus", 0.4, 2.0),
     ("columns", 1.0, 3.0),
     ("columns", 0.5, 1.5),
     ("cup", 0.4, 2.0),
+    ("cup:spiral", 0.4, 2.0),
     ("hanging-island", 0.5, 2.0),
     ("nested-rings", 0.5, 2.0),
     ("nested-rings", 0.7, 3.0),
     ("spire", 0.7, 3.0),
     ("table", 0.5, 2.0),
 ];
+
+/// Behind the name of a model that is planned as a spiral with a skirt.
+const SPIRAL: &str = ":spiral";
 
 fn kept() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/kept_bytes.txt")
@@ -55,7 +59,12 @@ fn mesh(name: &str, factor: f64) -> Mesh {
 }
 
 fn hash_of((name, factor, width): (&str, f64, f64)) -> u64 {
-    let plan = Planner::default().plan(&mesh(name, factor), &Settings::for_width(width));
+    let plain = Settings::for_width(width);
+    let (model, settings) = match name.strip_suffix(SPIRAL) {
+        Some(model) => (model, Settings { spiral: true, skirt: Some(Skirt::default()), ..plain }),
+        None => (name, plain),
+    };
+    let plan = Planner::default().plan(&mesh(model, factor), &settings);
     let plan = plan.unwrap_or_else(|error| panic!("{name} times {factor}, bead {width}: {error}"));
     hash(&write_gcode(&plan.strand, &GcodeSettings::default()).expect("a strand can be written"))
 }

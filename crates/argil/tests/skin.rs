@@ -34,12 +34,12 @@ fn a_cup_gets_a_floor_that_holds_water() {
         if !filled {
             continue;
         }
-        // No place where a bead could be is farther from one than half a bead and what the corners at joints leave.
+        // No place where a bead could be is farther than 0.55 beads from the middle of one.
         let path = plan.strand.polyline(position);
         let laid = path.windows(2).map(|ends| Segment::new(ends[0], ends[1])).collect();
         let laid = SegmentIndex::new(laid, settings.width);
         let wall = ClosedCurve::new(layer.walls[0].points.clone()).unwrap();
-        let reach = (0.5 + 0.5 * 0.33) * settings.width;
+        let reach = 0.55 * settings.width;
         let steps = (-60..60).map(|k| 0.21 * f64::from(k));
         let places = steps.clone().flat_map(|x| steps.clone().map(move |y| DVec2::new(x, y)));
         let bare: Vec<_> = places.filter(|&p| wall.contains(p) && !laid.is_within(p, reach)).collect();

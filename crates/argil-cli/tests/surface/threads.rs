@@ -1,7 +1,7 @@
 //! What a program keeps can be handed to another thread, and looked at from several.
 //!
-//! Left out are the views that borrow a function of the caller's, `SlackPath`, `Path` of the elastic curve and what is made behind
-//! petgraph's feature, and the crates that the program does not have.
+//! Left out are what borrows a function of the caller's, which may be bound to its thread, and what is made behind petgraph's feature, which
+//! the program does not have.
 
 /// Compiles for such types alone.
 fn shared<T: Send + Sync>() -> &'static str {
@@ -52,6 +52,17 @@ pub(crate) fn types() -> impl IntoIterator<Item = &'static str> {
         argil::elastic::ImlsField,
         argil::elastic::Relaxed,
         argil::elastic::Stop,
+        // argil-fill
+        argil::fill::BareDisc,
+        argil::fill::Bead,
+        argil::fill::Figures,
+        argil::fill::Fill,
+        argil::fill::FillCurve,
+        argil::fill::FillError,
+        argil::fill::FillOptions,
+        argil::fill::Joint,
+        argil::fill::Merged,
+        argil::fill::Ring,
         // argil-gcode
         argil::gcode::BadLine,
         argil::gcode::Extrusion,
@@ -65,7 +76,9 @@ pub(crate) fn types() -> impl IntoIterator<Item = &'static str> {
         argil::gcode::Program,
         argil::gcode::RoleNames,
         // argil-graph
+        argil::graph::DistanceLabels<'static>,
         argil::graph::DistanceMatrix,
+        argil::graph::Distances<'static>,
         argil::graph::FreeSpace<'static>,
         argil::graph::GraphError,
         argil::graph::Nodes<'static>,
@@ -75,11 +88,17 @@ pub(crate) fn types() -> impl IntoIterator<Item = &'static str> {
         // argil-mesh
         argil::mesh::Bounds,
         argil::mesh::EdgeTable,
+        argil::mesh::Format,
         argil::mesh::Ground,
         argil::mesh::Mesh,
         argil::mesh::MeshError,
         argil::mesh::Placement,
+        argil::mesh::Places,
+        argil::mesh::Remark,
+        argil::mesh::Repairs,
         argil::mesh::Size,
+        argil::mesh::Soup,
+        argil::mesh::Unit,
         // argil-models
         argil_models::Bounds,
         argil_models::Field,
@@ -122,6 +141,12 @@ pub(crate) fn types() -> impl IntoIterator<Item = &'static str> {
         // argil-seam
         argil::seam::SeamError,
         argil::seam::SeamSettings,
+        // argil-skin
+        argil::skin::Bumps,
+        argil::skin::Filled,
+        argil::skin::ModelLoop,
+        argil::skin::Section<'static>,
+        argil::skin::SkinOptions,
         // argil-slice
         argil::slice::Layer,
         argil::slice::Loss,
@@ -132,6 +157,7 @@ pub(crate) fn types() -> impl IntoIterator<Item = &'static str> {
         argil::strand::BeadShape,
         argil::strand::LayerSummary,
         argil::strand::Move,
+        argil::strand::Rise,
         argil::strand::Role,
         argil::strand::RoleLengths,
         argil::strand::Step,
@@ -152,14 +178,22 @@ pub(crate) fn types() -> impl IntoIterator<Item = &'static str> {
         argil::tour::TourOptions,
         argil::tour::TourSolver,
         // argil
+        argil::Bed,
+        argil::Climb,
+        argil::Document<argil::Settings>,
         argil::LayerFault,
+        argil::Infill,
+        argil::InfillChoice,
         argil::LayerReport,
+        argil::LevelCause,
         argil::Material,
         argil::Plan,
         argil::PlanError,
         argil::Planner,
         argil::Progress,
         argil::Settings,
+        argil::Skirt,
+        argil::SkirtLaid,
         argil::StageTimes,
         argil::literal::LiteralElastic,
         argil::literal::NearestStarts,
@@ -176,3 +210,6 @@ pub(crate) fn types() -> impl IntoIterator<Item = &'static str> {
         argil::stages::SlopedSafeguard,
     ]
 }
+
+/// What may be bound to a thread, and why: see above.
+pub(crate) const BOUND: [&str; 4] = ["Edges", "Path", "SeenFrom", "SlackPath"];

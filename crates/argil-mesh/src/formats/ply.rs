@@ -180,6 +180,7 @@ impl Header {
                 match element.kind {
                     ElementKind::Vertices => soup.vertices.push(place),
                     ElementKind::Faces if corners.len() >= 3 => {
+                        // There are three corners at least.
                         soup.triangles
                             .extend(corners[1..].windows(2).map(|pair| [corners[0], pair[0], pair[1]]));
                     }

@@ -32,6 +32,13 @@ const USUAL: &str = "3D/3dmodel.model";
 ///
 /// # Complexity
 /// Linear in the size of the parts, unpacked, and in the triangles of the build.
+///
+/// # Example
+/// ```
+/// use argil_mesh::{MeshError, three_mf};
+/// // A 3MF file is a package of compressed parts, and not its XML alone.
+/// assert!(matches!(three_mf(b"<model/>"), Err(MeshError::Package { .. })));
+/// ```
 pub fn three_mf(bytes: &[u8]) -> Result<Soup, MeshError> {
     if bytes.is_empty() {
         return Err(MeshError::Empty);

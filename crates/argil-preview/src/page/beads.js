@@ -1,6 +1,6 @@
 // Beads as a mesh: cross-sections along the strand, joined to tubes.
 //
-// A bead is as wide and as high as its layer says, with round sides. Cross-sections are mitred where the strand turns;
+// A bead is as wide as its layer says and as high as its move says, with round sides. Cross-sections are mitred where the strand turns;
 // where it turns back, the bead ends round and begins anew, as it does at the ends of the strand. Where the role
 // changes there are two cross-sections, so that each side keeps its colour.
 
@@ -134,14 +134,15 @@ class BeadMesh {
     const { plan, values, owner } = this.stations;
     const move = owner[s];
     const layer = plan.layers[plan.layerOf[move]];
-    const round = Math.min(layer.height, layer.width) / 2;
+    const height = plan.bead[move];
+    const round = Math.min(height, layer.width) / 2;
     const flat = layer.width / 2 - round;
     const [x, y, z, ax, ay] = values.subarray(5 * s, 5 * s + 5);
     section.forEach(([angle, side], row) => {
       const [sin, cos] = [Math.sin(angle * Math.PI), Math.cos(angle * Math.PI)];
       const out = -side * (flat + round * cos);
       const at = 4 * (this.rows * s + row);
-      const place = [x + ax * out, y + ay * out, z - layer.height / 2 + sin * layer.height / 2];
+      const place = [x + ax * out, y + ay * out, z - height / 2 + sin * height / 2];
       place.forEach((v, k) => { this.places[at + k] = Math.round((v - this.origin[k]) / this.grid); });
       const length = Math.hypot(ax, ay) || 1;
       this.normals[at] = -side * cos * ax / length * 127;

@@ -53,9 +53,10 @@ class Colours {
     return Math.hypot(xs[k - 1] + t * dx - x, ys[k - 1] + t * dy - y);
   }
 
-  // Paste in mm³/s on a layer: a bead with round sides at the layer's speed.
-  flow(layer) {
-    const { width, height, speed } = layer;
+  // Paste in mm³/s along a move: a bead with round sides at the layer's speed.
+  flow(move) {
+    const { width, speed } = this.plan.layers[this.plan.layerOf[move]];
+    const height = this.plan.bead[move];
     const area = width > height ? height * (width - height) + Math.PI * height * height / 4
       : Math.PI * width * width / 4;
     return area * speed;
@@ -76,13 +77,15 @@ class Colours {
       [PLAIN, NOTE, FAULT].forEach((colour, k) => { table[k] = colour; });
       return { tones, table, legend: { kind: "marks" } };
     }
-    const value = mode === "height" ? (layer) => layer.z : (layer) => this.flow(layer);
-    const values = plan.layers.map(value);
-    const low = Math.min(...values), high = Math.max(...values);
+    const values = new Float64Array(plan.moves + 1);
+    let low = Infinity, high = -Infinity;
+    for (let k = 1; k <= plan.moves; k++) {
+      values[k] = mode === "height" ? plan.z[k] : this.flow(k);
+      low = Math.min(low, values[k]);
+      high = Math.max(high, values[k]);
+    }
     const span = high > low ? high - low : 1;
-    plan.layers.forEach((layer, k) => {
-      tones.fill(Math.round(255 * (values[k] - low) / span), layer.first, layer.last + 1);
-    });
+    for (let k = 1; k <= plan.moves; k++) tones[k] = Math.round(255 * (values[k] - low) / span);
     return { tones, table, legend: { kind: "ramp", low, high, unit: mode === "height" ? "mm" : "mm³/s" } };
   }
 }

@@ -25,6 +25,7 @@ class Plan {
     this.x = new Float32Array(count);
     this.y = new Float32Array(count);
     this.z = new Float32Array(count);
+    this.bead = new Float32Array(count); // the height of the bead of each move
     for (let k = 0; k < count; k++) {
       this.x[k] = data.origin[0] + data.step * grid.getUint16(4 * k, true);
       this.y[k] = data.origin[1] + data.step * grid.getUint16(4 * k + 2, true);
@@ -41,10 +42,18 @@ class Plan {
       const layer = { index, z, height, width, speed, first: last + 1, last: last + points };
       this.layerOf.fill(this.layers.length, layer.first, layer.last + 1);
       this.z.fill(z, layer.first, layer.last + 1);
+      this.bead.fill(height, layer.first, layer.last + 1);
       this.layers.push(layer);
       last = layer.last;
     }
     this.z[0] = this.layers[0].z;
+    if (data.rises) {
+      const rises = new DataView(bytesOf(data.rises).buffer);
+      for (let k = 0; k < count; k++) {
+        this.z[k] = data.climb * rises.getUint16(4 * k, true);
+        this.bead[k] = data.climb * rises.getUint16(4 * k + 2, true);
+      }
+    }
     this.length = new Float64Array(count);
     this.time = new Float64Array(count);
     for (let k = 1; k < count; k++) {

@@ -16,7 +16,7 @@ use crate::stages::Smooth;
 /// and lets go of what it held: 129 hanging spans of a bunny become 460. Nothing keeps strands apart either, so the
 /// two passes of a corridor coincide. The reward is the shortest strand of all.
 /// [`ElasticCurve`](crate::stages::ElasticCurve) ties down only the vertices that hold something, to what they hold.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LiteralElastic;
 
 impl Smooth for LiteralElastic {

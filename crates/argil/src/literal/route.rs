@@ -11,7 +11,7 @@ use crate::stages::Route;
 /// crosses itself at connection points and passes through the walls of nested regions, and two thirds of what it adds to
 /// the bunny lie inside. [`Excursions`](crate::stages::Excursions) leave a wall wherever it is near and are drawn as one
 /// circuit that cannot cross.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SplicedRoute;
 
 impl Route for SplicedRoute {

@@ -13,7 +13,7 @@ use crate::stages::Seam;
 /// plainest that agrees is to go from the top down and take the nearest point each time. But a start may lie on a
 /// bridge, over nothing: 23 of 120 on the bunny do, and steps are up to 1.6 mm long and may cross the layer. The costs by
 /// which [`BestChain`](crate::stages::BestChain) looks for a place to hide the seam play no part.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct NearestStarts;
 
 impl Seam for NearestStarts {

@@ -14,7 +14,7 @@ use crate::stages::Support;
 /// Two samples may lean on contacts on their far sides, so that nearly two strides hang although each sample is held.
 /// 129 spans of the bunny hang like that before any smoothing. [`FewestPoints`](crate::stages::FewestPoints) measures
 /// along the whole curve instead of at samples.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StrideSupport;
 
 impl Support for StrideSupport {

@@ -78,6 +78,6 @@ fn planned(body: &Body, settings: &Settings) -> Option<Fault> {
 
 /// Whether a finding of this kind makes a print unsound.
 fn is_fault(kind: FindingKind) -> bool {
-    use FindingKind::{BareOutline, Contact, Jump, SharpBend, SharpTurn};
-    !matches!(kind, BareOutline | Contact | Jump | SharpBend | SharpTurn)
+    use FindingKind::{BareFill, BareOutline, Contact, Jump, SharpBend, SharpTurn};
+    !matches!(kind, BareFill | BareOutline | Contact | Jump | SharpBend | SharpTurn)
 }

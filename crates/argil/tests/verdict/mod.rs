@@ -16,6 +16,9 @@ pub(crate) fn audited(plan: &Plan, mesh: &Mesh, settings: &Settings) -> Report {
     let wanted = AuditSettings {
         layer_height: settings.layer_height,
         walls: settings.walls,
+        floor: settings.floor,
+        skin: settings.skin > 0,
+        surface: settings.surface,
         across: criterion.across,
         along: criterion.along,
         ..AuditSettings::for_width(settings.width)

@@ -1,0 +1,4 @@
+//! `read_layers` of the library, as a libFuzzer program.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| argil_fuzz::read_layers(bytes));
