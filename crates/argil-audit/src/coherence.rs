@@ -90,7 +90,7 @@ impl Stretches {
     ) -> Coherence {
         let mut holds: Vec<bool> = self.stretches.iter().map(|s| s.joins).collect();
         for piece in above.into_iter().flatten() {
-            if self.model.nearest_within(piece.at, held).is_none()
+            if !self.model.is_within(piece.at, held)
                 && let Some(nearest) = self.free.nearest_within(piece.at, held)
             {
                 holds[self.owner[nearest.index]] = true;

@@ -27,7 +27,7 @@ pub(crate) fn measure(wanted: &Wanted, laid: &SegmentIndex, width: f64, t: &Tole
     let mut coverage = Coverage::default();
     for wall in &wanted.walls {
         let samples = samples(wall, t.outline_step);
-        let bare: Vec<bool> = samples.iter().map(|s| laid.nearest_within(s.at, t.laid).is_none()).collect();
+        let bare: Vec<bool> = samples.iter().map(|s| !laid.is_within(s.at, t.laid)).collect();
         let found = runs(samples.len(), true, |k| bare[k], |k| samples[k].length);
         let missed: f64 = found.iter().map(|run| run.length).sum();
         coverage.wanted += samples.iter().map(|s| s.length).sum::<f64>();

@@ -155,7 +155,7 @@ impl Wanted {
 
     /// Whether a wall path lies within `reach` mm of `p`.
     pub(crate) fn has_wall_within(&self, p: DVec2, reach: f64) -> bool {
-        self.wall_index.nearest_within(p, reach).is_some()
+        self.wall_index.is_within(p, reach)
     }
 
     fn is_thin(&self, p: DVec2) -> bool {
@@ -178,7 +178,7 @@ impl Wanted {
     ) -> Option<Region> {
         let reach = 0.5 * self.width + t.thin_beyond;
         let index = self.outermost_index.as_ref().unwrap_or(&self.wall_index);
-        let is_bare = |p: DVec2| index.nearest_within(p, reach).is_none();
+        let is_bare = |p: DVec2| !index.is_within(p, reach);
         let shows = self.outlines.iter().any(|ring| {
             ring.iter().any(|&p| is_bare(p)) || samples(ring, t.outline_step).iter().any(|s| is_bare(s.at))
         });

@@ -30,17 +30,47 @@ impl Segment {
     /// ```
     #[must_use]
     pub fn part_within(&self, other: &Segment, radius: f64) -> Option<SegmentPart> {
-        let length = self.length();
-        let direction = (self.end - self.start) / length;
-        if !direction.is_finite() {
+        Cut::of(*self)?.part_within(other, radius)
+    }
+}
+
+/// A segment that is cut with one capsule after the other.
+pub(crate) struct Cut {
+    segment: Segment,
+    length: f64,
+    ray: Ray,
+}
+
+impl Cut {
+    /// `None` for a segment without length.
+    pub(crate) fn of(segment: Segment) -> Option<Self> {
+        let length = segment.length();
+        let direction = (segment.end - segment.start) / length;
+        direction.is_finite().then_some(Self {
+            segment,
+            length,
+            ray: Ray { origin: segment.start, direction },
+        })
+    }
+
+    pub(crate) fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// The part of the segment that lies within `radius` mm of `other`.
+    #[inline]
+    pub(crate) fn part_within(&self, other: &Segment, radius: f64) -> Option<SegmentPart> {
+        // Far more than all rounding below: most of what an index visits lies outside of these boxes.
+        let largest = self.segment.start.abs().max(other.start.abs()).max_element();
+        if self.segment.is_boxed_beyond(other, radius * (1.0 + 1e-9) + 1e-12 * (largest + self.length)) {
             return None;
         }
-        let ray = Ray { origin: self.start, direction };
+        let ray = &self.ray;
         [ray.in_disc(other.start, radius), ray.in_disc(other.end, radius), ray.in_rectangle(other, radius)]
             .into_iter()
             .flatten()
             .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
-            .map(|(from, to)| SegmentPart { from: from.max(0.0), to: to.min(length) })
+            .map(|(from, to)| SegmentPart { from: from.max(0.0), to: to.min(self.length) })
             .filter(|part| part.from <= part.to)
     }
 }

@@ -128,7 +128,9 @@ impl ClosedCurve {
     #[must_use]
     pub fn segment(&self, k: usize) -> Segment {
         let n = self.points.len();
-        Segment::new(self.points[k % n], self.points[(k % n + 1) % n])
+        // A division costs more than all the rest.
+        let k = if k < n { k } else { k % n };
+        Segment::new(self.points[k], self.points[if k + 1 < n { k + 1 } else { 0 }])
     }
 
     /// All segments, in order.

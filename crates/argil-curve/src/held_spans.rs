@@ -1,5 +1,6 @@
 //! The stretches of a curve that lie near a set of segments, and the stretches between them.
 
+use crate::capsule::Cut;
 use crate::{ClosedCurve, SegmentIndex};
 
 /// Spans of arc length nearer than this are one span, mm. Two segments that meet at a vertex give two parts
@@ -75,10 +76,16 @@ pub fn held_spans(curve: &ClosedCurve, index: &SegmentIndex, across: f64) -> Vec
     for (k, segment) in curve.segments().enumerate() {
         let offset = curve.arc_of(k);
         parts.clear();
+        let Some(cut) = Cut::of(segment) else { continue };
+        // What one segment holds whole no other can hold more of.
+        let mut whole = false;
         index.for_each_near(segment, across, |_, other| {
-            parts.extend(
-                segment.part_within(&other, across).map(|part| (offset + part.from, offset + part.to)),
-            );
+            if whole {
+                return;
+            }
+            let part = cut.part_within(&other, across);
+            whole = part.is_some_and(|part| part.from == 0.0 && part.to == cut.length());
+            parts.extend(part.map(|part| (offset + part.from, offset + part.to)));
         });
         parts.sort_by(|a, b| a.0.total_cmp(&b.0));
         for &(from, to) in &parts {

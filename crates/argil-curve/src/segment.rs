@@ -75,16 +75,25 @@ impl Segment {
         !self.is_beyond(p, distance) && self.distance(p) <= distance
     }
 
-    /// Whether `p` is certainly farther than `distance` from the line through the segment, and so from the
-    /// segment. Without a division or a root, it spares most of a search the full answer.
+    /// Whether `p` is certainly farther than `distance` from the segment. Without a division or a root, it spares most of a search
+    /// the full answer.
     #[inline]
     pub(crate) fn is_beyond(&self, p: DVec2, distance: f64) -> bool {
         let (along, away) = (self.end - self.start, p - self.start);
-        let across = along.perp_dot(away).abs();
-        // The product's rounding is below 1e-15 of the lengths it is made of; 1e-12 and 1e-9 leave room for all others.
-        let slack = 1e-12 * (away.x.abs() + away.y.abs());
+        let squared = along.length_squared();
+        let share = away.dot(along);
+        // The products' rounding is below 1e-15 of the lengths they are made of; 1e-12 and 1e-9 leave room for all others.
+        let slack = 1e-12 * (away.x.abs() + away.y.abs() + along.x.abs() + along.y.abs());
         let reach = distance * (1.0 + 1e-9) + slack;
-        across * across > reach * reach * along.length_squared()
+        let reach = reach * reach;
+        if share <= 0.0 {
+            away.length_squared() > reach
+        } else if share >= squared {
+            (away - along).length_squared() > reach
+        } else {
+            let across = along.perp_dot(away);
+            across * across > reach * squared
+        }
     }
 
     /// Distance from `p` to the segment, mm.

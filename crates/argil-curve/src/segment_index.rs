@@ -35,9 +35,16 @@ pub struct SegmentIndex {
     /// The cells of each segment; `None` for those that are left out.
     footprints: Vec<Option<Footprint>>,
     grid: Grid,
-    /// Items of cell c are `items[offsets[c]..offsets[c + 1]]`, in ascending order.
+    /// Items of cell c are `items[offsets[c]..offsets[c + 1]]`, in ascending order of their indices.
     offsets: Vec<u32>,
-    items: Vec<u32>,
+    items: Vec<Item>,
+}
+
+/// A segment in a cell. It is kept by value: a query then reads a cell's segments from one place in memory.
+#[derive(Clone, Copy, Debug)]
+struct Item {
+    segment: Segment,
+    index: u32,
 }
 
 /// The segment of an index that is nearest to some point.
@@ -71,11 +78,12 @@ impl SegmentIndex {
         for cell in 1..offsets.len() {
             offsets[cell] += offsets[cell - 1];
         }
-        let mut items = vec![0_u32; offsets[offsets.len() - 1] as usize];
+        let nothing = Item { segment: Segment::new(DVec2::ZERO, DVec2::ZERO), index: 0 };
+        let mut items = vec![nothing; offsets[offsets.len() - 1] as usize];
         let mut next = offsets.clone();
         for (k, (segment, footprint)) in segments.iter().zip(&footprints).enumerate() {
             grid.for_each_cell(segment, footprint, |cell| {
-                items[next[cell] as usize] = k as u32;
+                items[next[cell] as usize] = Item { segment: *segment, index: k as u32 };
                 next[cell] += 1;
             });
         }
@@ -142,7 +150,7 @@ impl SegmentIndex {
         (block.south..=block.north).any(|row| {
             self.items_of_run(block.west, block.east, row)
                 .iter()
-                .any(|&item| self.segments[item as usize].is_within(p, radius))
+                .any(|item| item.segment.is_within(p, radius))
         })
     }
 
@@ -161,8 +169,8 @@ impl SegmentIndex {
         for row in asked.south..=asked.north {
             let Some((first, last)) = self.grid.columns_of(&segment, &asked, row, radius) else { continue };
             for column in first..=last {
-                for &item in self.items_of(column as usize, row as usize) {
-                    let index = item as usize;
+                for item in self.items_of(column as usize, row as usize) {
+                    let index = item.index as usize;
                     let Some(stored) = &self.footprints[index] else { continue };
                     // A segment is reported from the first cell, row by row, that it shares with the query.
                     let first_shared = if stored.whole && asked.whole {
@@ -172,7 +180,7 @@ impl SegmentIndex {
                         first == Some((column, row))
                     };
                     if first_shared {
-                        visit(index, self.segments[index]);
+                        visit(index, item.segment);
                     }
                 }
             }
@@ -196,13 +204,13 @@ impl SegmentIndex {
         })
     }
 
-    fn items_of(&self, column: usize, row: usize) -> &[u32] {
+    fn items_of(&self, column: usize, row: usize) -> &[Item] {
         let cell = row * self.grid.columns as usize + column;
         &self.items[self.offsets[cell] as usize..self.offsets[cell + 1] as usize]
     }
 
     /// The items of the cells from column `west` to `east` of a row, which lie side by side.
-    fn items_of_run(&self, west: u32, east: u32, row: u32) -> &[u32] {
+    fn items_of_run(&self, west: u32, east: u32, row: u32) -> &[Item] {
         let cell = row as usize * self.grid.columns as usize;
         let (from, to) = (self.offsets[cell + west as usize], self.offsets[cell + east as usize + 1]);
         &self.items[from as usize..to as usize]
@@ -262,15 +270,14 @@ impl SegmentIndex {
         }
     }
 
-    fn improve(&self, p: DVec2, limit: f64, items: &[u32], best: &mut Option<NearestSegment>) {
+    fn improve(&self, p: DVec2, limit: f64, items: &[Item], best: &mut Option<NearestSegment>) {
         let mut reached = best.map_or(limit, |b| b.distance);
-        for &item in items {
-            let index = item as usize;
-            let segment = &self.segments[index];
-            if segment.is_beyond(p, reached) {
+        for item in items {
+            if item.segment.is_beyond(p, reached) {
                 continue;
             }
-            let nearest = segment.nearest(p);
+            let index = item.index as usize;
+            let nearest = item.segment.nearest(p);
             let better = match best {
                 Some(b) => {
                     nearest.distance < b.distance || (nearest.distance == b.distance && index < b.index)

@@ -1,7 +1,7 @@
 //! Where a closed polyline crosses itself.
 
-use crate::{Segment, SegmentIndex};
-use glam::DVec2;
+use crate::{PointIndex, Segment, SegmentIndex};
+use glam::{DVec2, Vec2Swizzles};
 use std::f64::consts::TAU;
 
 /// Vertices no further apart than this are one place, mm: the grid of the printed output.
@@ -12,6 +12,12 @@ const NO_DIRECTION: f64 = 1e-6;
 
 /// Directions that differ by less than this are one, in radians: the strands then run along each other.
 const SAME_DIRECTION: f64 = 1e-6;
+
+/// Coordinates beyond this take no part: their squares overflow.
+const LARGEST: f64 = 1e150;
+
+/// A sweep that would meet more segments at a time than this, in the mean, is dearer than a grid.
+const MOST_MET: f64 = 48.0;
 
 /// A place where a closed polyline crosses itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,19 +72,72 @@ pub fn self_crossings(points: &[DVec2]) -> Vec<Crossing> {
 
 fn proper_crossings(points: &[DVec2]) -> Vec<Crossing> {
     let n = points.len();
-    let segments: Vec<Segment> = (0..n).map(|k| Segment::new(points[k], points[(k + 1) % n])).collect();
-    let index = SegmentIndex::new(segments, mean_step(points));
+    let segments: Vec<Segment> =
+        (0..n).map(|k| Segment::new(points[k], points[if k + 1 < n { k + 1 } else { 0 }])).collect();
     let mut found = Vec::new();
-    for (first, segment) in index.segments().iter().enumerate() {
-        index.for_each_near(*segment, 0.0, |second, other| {
-            if second > first && segment.crosses(&other) {
-                let point = segment.meeting_point(&other);
-                found.push(Crossing { first, second, point, kind: CrossingKind::Proper });
-            }
-        });
+    let mut test = |first: usize, second: usize| {
+        let (first, second) = (first.min(second), first.max(second));
+        if segments[first].crosses(&segments[second]) {
+            let point = segments[first].meeting_point(&segments[second]);
+            found.push(Crossing { first, second, point, kind: CrossingKind::Proper });
+        }
+    };
+    if !overlapping_pairs(&segments, &mut test) {
+        let index = SegmentIndex::new(segments.clone(), mean_step(points));
+        for (first, segment) in segments.iter().enumerate() {
+            index.for_each_near(*segment, 0.0, |second, _| {
+                if second > first {
+                    test(first, second);
+                }
+            });
+        }
     }
     found.sort_by_key(|c| (c.first, c.second));
     found
+}
+
+/// Calls `visit` with every pair of segments whose upright boxes meet, by a line that sweeps along x or along y; `false`, and nothing
+/// is visited, where it would meet many segments at a time, as in a plane full of long ones.
+fn overlapping_pairs(segments: &[Segment], mut visit: impl FnMut(usize, usize)) -> bool {
+    let usable = |s: &Segment| s.start.abs().max(s.end.abs()).max_element() <= LARGEST;
+    let (mut low, mut high, mut along) = (DVec2::INFINITY, DVec2::NEG_INFINITY, DVec2::ZERO);
+    for segment in segments.iter().filter(|s| usable(s)) {
+        low = low.min(segment.start).min(segment.end);
+        high = high.max(segment.start).max(segment.end);
+        along += (segment.end - segment.start).abs();
+    }
+    // How many segments a line along y, or along x, meets in the mean.
+    let met = along / (high - low).max(DVec2::splat(f64::MIN_POSITIVE));
+    let by_x = met.x <= met.y;
+    let met = if by_x { met.x } else { met.y };
+    if met.is_nan() || met > MOST_MET {
+        return false;
+    }
+    // Boxes with the axis of the sweep first.
+    let turned = |p: DVec2| if by_x { p } else { p.yx() };
+    let mut boxes: Vec<(DVec2, DVec2, u32)> = (0..)
+        .zip(segments)
+        .filter(|(_, s)| usable(s))
+        .map(|(k, s)| (turned(s.start.min(s.end)), turned(s.start.max(s.end)), k))
+        .collect();
+    boxes.sort_unstable_by(|a, b| a.0.x.total_cmp(&b.0.x).then(a.2.cmp(&b.2)));
+    let mut active: Vec<(DVec2, DVec2, u32)> = Vec::new();
+    for here in boxes {
+        let mut k = 0;
+        while k < active.len() {
+            let other = active[k];
+            if other.1.x < here.0.x {
+                active.swap_remove(k);
+                continue;
+            }
+            if other.0.y <= here.1.y && here.0.y <= other.1.y {
+                visit(other.2 as usize, here.2 as usize);
+            }
+            k += 1;
+        }
+        active.push(here);
+    }
+    true
 }
 
 fn vertex_crossings(points: &[DVec2]) -> Vec<Crossing> {
@@ -90,11 +149,12 @@ fn vertex_crossings(points: &[DVec2]) -> Vec<Crossing> {
         return Vec::new();
     }
     let at = |k: usize| points[kept[k % m]];
-    let places = (0..m).map(|k| Segment::new(at(k), at(k))).collect();
-    let index = SegmentIndex::new(places, mean_step(points));
+    let places: Vec<DVec2> = kept.iter().map(|&k| points[k]).collect();
+    let index = PointIndex::new(&places, mean_step(points));
     let mut found = Vec::new();
     for i in 0..m {
-        index.for_each_near(Segment::new(at(i), at(i)), SAME_PLACE, |j, _| {
+        // A little more, since distances are compared below.
+        index.for_each_within(Segment::new(at(i), at(i)), 1.001 * SAME_PLACE, |j| {
             let neighbours = j <= i + 1 || j - i == m - 1;
             if neighbours || at(i).distance(at(j)) > SAME_PLACE {
                 return;

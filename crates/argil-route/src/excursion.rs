@@ -1,7 +1,8 @@
 //! Closed excursions from walls: the savings method of Clarke and Wright (1964, DOI 10.1287/opre.12.4.568)
 //! with every wall of the region as a depot.
 
-use argil_graph::DistanceMatrix;
+/// Stops farther apart than so many times what both cost by themselves are not looked at: by themselves they are joined up to once.
+const HOPELESS: f64 = 2.0;
 
 /// A chain of stops that leaves one wall and comes back to it.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,10 +29,19 @@ impl Excursion {
     }
 }
 
+/// What is known of the ways between stops.
+pub(crate) trait Hops {
+    /// Length of the way from one stop to another, or less, mm.
+    fn at_least(&self, a: usize, b: usize) -> f64;
+
+    /// The same way in full; `None` where there is no direct one.
+    fn whole(&self, a: usize, b: usize) -> Option<f64>;
+}
+
 /// The stops of a region. Stop k lies `to_wall[k][w]` from wall w, infinity where that wall is no choice;
 /// `bound[k]` tells that the stop joins another wall.
-pub(crate) struct Stops<'a> {
-    pub(crate) distances: &'a DistanceMatrix,
+pub(crate) struct Stops<'a, H> {
+    pub(crate) hops: &'a H,
     pub(crate) to_wall: &'a [Vec<f64>],
     pub(crate) bound: &'a [bool],
     /// What a root costs, mm.
@@ -40,12 +50,12 @@ pub(crate) struct Stops<'a> {
     pub(crate) length_cost: f64,
 }
 
-impl Stops<'_> {
+impl<H: Hops> Stops<'_, H> {
     /// Cost of an excursion: both legs meet the wall at one place, so they are never shorter together
     /// than the way from its last stop to its first.
     fn cost(&self, first: usize, last: usize, wall: usize, length: f64) -> f64 {
         let legs = self.to_wall[first][wall] + self.to_wall[last][wall];
-        let whole = length + legs.max(self.distances.get(first, last));
+        let whole = length + legs.max(self.hops.at_least(first, last));
         whole + self.length_cost * whole * whole + self.root_cost
     }
 
@@ -102,10 +112,14 @@ impl Stops<'_> {
         let far = 35.0 * self.root_cost.max(1e-9);
         let near: Vec<f64> =
             self.to_wall.iter().map(|w| w.iter().copied().fold(f64::INFINITY, f64::min).min(far)).collect();
-        let mut pairs: Vec<(f64, u32, u32)> = Vec::with_capacity(n * n.saturating_sub(1) / 2);
+        let mut pairs: Vec<(f64, u32, u32)> = Vec::new();
         for a in 0..n {
             for b in a + 1..n {
-                pairs.push((self.distances.get(a, b) - 0.5 * (near[a] + near[b]), a as u32, b as u32));
+                let hop = self.hops.at_least(a, b);
+                // Two excursions that lead straight to one stop each would save nothing long before.
+                if hop <= HOPELESS * (near[a] + near[b] + self.root_cost) {
+                    pairs.push((hop - 0.5 * (near[a] + near[b]), a as u32, b as u32));
+                }
             }
         }
         pairs.sort_by(|p, q| p.0.total_cmp(&q.0).then((p.1, p.2).cmp(&(q.1, q.2))));
@@ -122,20 +136,21 @@ impl Stops<'_> {
             return None;
         }
         let (first, last) = (if a == ll { lf } else { ll }, if b == rf { rl } else { rf });
-        let length = left.length + right.length + self.distances.get(a, b);
         let apart = self.cost(lf, ll, left.wall, left.length) + self.cost(rf, rl, right.wall, right.length);
         let walls = match (left.bound, right.bound) {
             (true, _) => [left.wall, left.wall],
             (_, true) => [right.wall, right.wall],
             _ => [left.wall, right.wall],
         };
-        let (together, wall) = walls
-            .into_iter()
-            .map(|wall| (self.cost(first, last, wall, length), wall))
-            .min_by(|p, q| p.0.total_cmp(&q.0))?;
-        if together >= apart - 1e-9 {
-            return None;
-        }
+        let joined = |hop: f64| {
+            let length = left.length + right.length + hop;
+            let costs = walls.into_iter().map(|wall| (self.cost(first, last, wall, length), wall));
+            let (together, wall) = costs.min_by(|p, q| p.0.total_cmp(&q.0))?;
+            (together < apart - 1e-9).then_some((length, wall))
+        };
+        // What a lower bound rules out needs no closer look.
+        joined(self.hops.at_least(a, b))?;
+        let (length, wall) = joined(self.hops.whole(a, b)?)?;
         let mut stops = left.stops.clone();
         if a != ll {
             stops.reverse();

@@ -19,19 +19,37 @@ pub(crate) struct Joint {
 /// O(n · m) for n and m points.
 pub(crate) fn closest(a: &ClosedCurve, b: &ClosedCurve) -> (f64, f64, f64) {
     let mut best = (f64::INFINITY, 0.0, 0.0);
+    let (around_a, around_b) = (bounds(a), bounds(b));
     for (k, &p) in a.points().iter().enumerate() {
+        if distance_from(around_b, p) >= best.0 {
+            continue;
+        }
         let near = b.nearest(p);
         if near.distance < best.0 {
             best = (near.distance, a.arc_of(k), near.s);
         }
     }
     for (k, &p) in b.points().iter().enumerate() {
+        if distance_from(around_a, p) >= best.0 {
+            continue;
+        }
         let near = a.nearest(p);
         if near.distance < best.0 {
             best = (near.distance, near.s, b.arc_of(k));
         }
     }
     best
+}
+
+/// The upright box round a curve.
+fn bounds(curve: &ClosedCurve) -> (DVec2, DVec2) {
+    let first = curve.points()[0];
+    curve.points().iter().fold((first, first), |(low, high), &p| (low.min(p), high.max(p)))
+}
+
+/// How far a point is from a box; 0 inside.
+fn distance_from((low, high): (DVec2, DVec2), p: DVec2) -> f64 {
+    p.distance(p.clamp(low, high))
 }
 
 /// What a hop between two demands costs when walls are joined.

@@ -17,6 +17,10 @@ use crate::{Region, RouteError, RouteSettings, ShortestTours, Tours, regions};
 /// along the spine would be told from one that goes through the wall by the length of wall between.
 const ROOT_GAP: f64 = 0.5;
 
+/// How far from the nearest demand paths may bend in a region of one wall, in w. Beyond it there are a few paths all the same, through
+/// the middles of the triangulation's edges.
+const NEAR: f64 = 6.0;
+
 /// A wall of the layer: a closed loop that is printed whole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wall<'a> {
@@ -262,7 +266,7 @@ fn steiner(view: &RegionView<'_>, safeguard: &[Vec<DVec2>], demands: &[DVec2]) -
             let segment = curve.segment(on.segment);
             let left = (segment.end - segment.start).normalize_or_zero().perp();
             let place = segment.point_at(on.t) + sign * s.width * left;
-            if view.index.nearest_within(place, 0.8 * s.width).is_none() {
+            if !view.index.is_within(place, 0.8 * s.width) {
                 places.push(place);
             }
         }
@@ -273,6 +277,13 @@ fn steiner(view: &RegionView<'_>, safeguard: &[Vec<DVec2>], demands: &[DVec2]) -
                 places.extend(ring.resampled(step));
             }
         }
+    }
+    // Round one wall nothing but excursions is led, which stay near what they visit.
+    if view.walls.len() == 1 && !demands.is_empty() {
+        let near = (NEAR * s.width).powi(2);
+        places.retain(|place| demands.iter().any(|demand| demand.distance_squared(*place) <= near));
+    }
+    if view.region.outer.is_none() {
         places.extend(frame(&places, view, demands));
     }
     places.into_iter().map(|p| on_grid(p, s.grid)).collect()

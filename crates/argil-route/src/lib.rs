@@ -21,10 +21,12 @@ mod layer;
 mod multigraph;
 mod region;
 mod region_plan;
+mod relaxation;
 mod round_tour;
 mod settings;
 mod spine;
 mod spliced;
+mod straight;
 mod tours;
 
 pub use argil_curve::{ClosedCurve, DVec2, SegmentIndex};

@@ -1,18 +1,19 @@
 //! The plan of one region: its attachments, its tours, and the graph that they are drawn on.
 
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 
-use argil_curve::{ClosedCurve, DVec2, SegmentIndex, on_grid};
+use argil_curve::{ClosedCurve, DVec2, SegmentIndex};
 use argil_graph::{DistanceMatrix, FreeSpace, Nodes, PathFinder, PathGraph};
 #[cfg(feature = "rayon")]
 use rayon::prelude::*;
 
 use crate::attachment::{Attachments, attach};
 use crate::cycle::Leg;
-use crate::discs::Discs;
-use crate::excursion::{Excursion, Stops};
+use crate::excursion::{Excursion, Hops, Stops};
 use crate::joint::{Reuse, join_walls};
 use crate::round_tour::{meeting_places, taken_along};
+use crate::straight::Straight;
 use crate::tours::{TourDistances, Tours};
 use crate::{Region, RouteError, RouteSettings};
 
@@ -64,30 +65,27 @@ pub(crate) struct RegionPlan {
     sketch: Sketch,
     /// Length of all tours and the price of their roots and rings, mm.
     cost: f64,
-    /// What the tour through all walls, if there is one, is longer for the demands on it, mm.
-    detour: f64,
 }
-
-/// A tour through all walls is not looked at again if this share of its cost or less is for the demands that it takes along.
-const DETOUR: f64 = 0.1;
 
 /// A stop of a sketched tour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Stop {
+pub(crate) enum Stop {
     Demand(usize),
     Place(usize),
 }
 
 /// Which tours a region is to have, before they are drawn.
 #[derive(Clone, Debug, Default)]
-struct Sketch {
+pub(crate) struct Sketch {
     /// Places on walls: (index among the region's walls, arc).
-    places: Vec<(usize, f64)>,
-    tours: Vec<Vec<Stop>>,
+    pub(crate) places: Vec<(usize, f64)>,
+    pub(crate) tours: Vec<Vec<Stop>>,
     /// Whether the first tour goes through all walls.
     round: bool,
     /// Whether the stops of each tour are in an order to begin the search from.
     ordered: bool,
+    /// Whether the demands were moved towards the tours already.
+    moved: bool,
 }
 
 impl RegionView<'_> {
@@ -100,7 +98,8 @@ impl RegionView<'_> {
     ) -> Result<RegionPlan, RouteError> {
         let taken = attachments.clone();
         let mut best = self.cheapest(demands, &taken)?;
-        for _ in 0..self.settings.relaxations {
+        let passes = self.settings.relaxations.saturating_sub(usize::from(best.sketch.moved));
+        for _ in 0..passes {
             if self.region.demands.is_empty() {
                 break;
             }
@@ -124,11 +123,19 @@ impl RegionView<'_> {
             let tour = (0..demands.len()).map(Stop::Demand).collect();
             return self.draw(Sketch { tours: vec![tour], ..Sketch::default() }, demands);
         }
-        let excursions = || self.draw(self.sketch_excursions(demands, taken)?, demands);
+        // The first pass needs no drawing: tours lead straight from stop to stop but for corners.
+        let drawn = |sketch: Sketch| {
+            if self.settings.relaxations == 0 {
+                return self.draw(sketch, demands);
+            }
+            let moved = self.relaxed_along(&sketch, demands);
+            self.draw(Sketch { moved: true, ..self.rerooted(&sketch, &moved, taken) }, &moved)
+        };
+        let excursions = || drawn(self.sketch_excursions(demands, taken));
         if self.walls.len() == 1 {
             return excursions();
         }
-        let round = || self.cheapest_round(demands, taken);
+        let round = || drawn(self.sketch_round(demands, taken)?);
         #[cfg(feature = "rayon")]
         let (plan, round) = rayon::join(excursions, round);
         #[cfg(not(feature = "rayon"))]
@@ -137,17 +144,7 @@ impl RegionView<'_> {
         Ok(if round.cost < plan.cost { round } else { plan })
     }
 
-    /// One tour through all walls, with all demands or only with those that lie on its way.
-    fn cheapest_round(&self, demands: &[DVec2], taken: &Attachments) -> Result<RegionPlan, RouteError> {
-        let all = self.draw(self.sketch_round(demands, taken), demands)?;
-        if all.detour <= DETOUR * all.cost {
-            return Ok(all);
-        }
-        let some = self.draw(self.sketch_lean_round(demands, taken)?, demands)?;
-        Ok(if some.cost < all.cost { some } else { all })
-    }
-
-    fn wall(&self, local: usize) -> &ClosedCurve {
+    pub(crate) fn wall(&self, local: usize) -> &ClosedCurve {
         &self.curves[self.walls[local]]
     }
 
@@ -158,7 +155,7 @@ impl RegionView<'_> {
     }
 
     /// Walls joined by a tree, demands served by excursions.
-    fn sketch_excursions(&self, demands: &[DVec2], taken: &Attachments) -> Result<Sketch, RouteError> {
+    fn sketch_excursions(&self, demands: &[DVec2], taken: &Attachments) -> Sketch {
         let s = self.settings;
         let walls: Vec<&ClosedCurve> = (0..self.walls.len()).map(|w| self.wall(w)).collect();
         let to_wall: Vec<Vec<f64>> =
@@ -172,21 +169,23 @@ impl RegionView<'_> {
             taken.take(self.walls[joint.wall], arc);
             places.push((joint.wall, arc));
         }
-        let (graph, cuts) = self.graph(&places, demands)?;
-        let among: Vec<u32> =
-            cuts.iter().map(|c| c.vertex).chain((0..demands.len()).map(|d| graph.terminal(d))).collect();
-        let distances = self.distances(&graph, &among)?;
         // Stops are the joints first, each bound to its parent, then the demands.
-        let mut reach: Vec<Vec<f64>> = Vec::with_capacity(among.len());
-        for (joint, cut) in joints.iter().zip(&cuts) {
+        let at: Vec<DVec2> = places
+            .iter()
+            .map(|&(wall, arc)| walls[wall].point_at(arc))
+            .chain(demands.iter().copied())
+            .collect();
+        let mut reach: Vec<Vec<f64>> = Vec::with_capacity(at.len());
+        for (joint, &place) in joints.iter().zip(&at) {
             let mut row = vec![f64::INFINITY; walls.len()];
-            row[joint.parent] = walls[joint.parent].nearest(cut.at).distance;
+            row[joint.parent] = walls[joint.parent].nearest(place).distance;
             reach.push(row);
         }
         reach.extend(to_wall);
-        let bound: Vec<bool> = (0..among.len()).map(|k| k < joints.len()).collect();
+        let bound: Vec<bool> = (0..at.len()).map(|k| k < joints.len()).collect();
+        let hops = self.straight(&at);
         let stops = Stops {
-            distances: &distances,
+            hops: &hops,
             to_wall: &reach,
             bound: &bound,
             root_cost: s.root_cost * s.width,
@@ -194,19 +193,18 @@ impl RegionView<'_> {
         };
         let mut excursions = stops.excursions();
         excursions.sort_by_key(|e| e.stops.len());
-        let at = |k: usize| if k < joints.len() { cuts[k].at } else { demands[k - joints.len()] };
         let stop = |k: usize| if k < joints.len() { Stop::Place(k) } else { Stop::Demand(k - joints.len()) };
         let mut sketch = Sketch { places, ordered: true, ..Sketch::default() };
-        self.root(&excursions, &stops, &mut taken, &mut sketch, at, stop);
-        Ok(sketch)
+        self.root(&excursions, &stops, &mut taken, &mut sketch, |k| at[k], stop);
+        sketch
     }
 
     /// Gives every excursion a place on its wall, the one nearest to it that is free, and adds it to the sketch. `at` tells where a stop
     /// is and `stop` what it is.
-    fn root(
+    fn root<H: Hops>(
         &self,
         excursions: &[Excursion],
-        stops: &Stops<'_>,
+        stops: &Stops<'_, H>,
         taken: &mut Attachments,
         sketch: &mut Sketch,
         at: impl Fn(usize) -> DVec2,
@@ -258,17 +256,10 @@ impl RegionView<'_> {
         places.next().filter(|_| places.next().is_none())
     }
 
-    /// One tour through all walls and demands.
-    fn sketch_round(&self, demands: &[DVec2], taken: &Attachments) -> Sketch {
-        let places = self.met_by_one_tour(demands, &mut taken.clone());
-        let stops = (0..places.len()).map(Stop::Place).chain((0..demands.len()).map(Stop::Demand)).collect();
-        Sketch { places, tours: vec![stops], round: true, ordered: false }
-    }
-
-    /// Where one tour through the given points meets each wall.
-    fn met_by_one_tour(&self, points: &[DVec2], taken: &mut Attachments) -> Vec<(usize, f64)> {
+    /// Where one tour through the walls meets each of them.
+    fn met_by_one_tour(&self, taken: &mut Attachments) -> Vec<(usize, f64)> {
         let walls: Vec<&ClosedCurve> = (0..self.walls.len()).map(|w| self.wall(w)).collect();
-        let wanted = meeting_places(&walls, points, &self.settings.tour).into_iter().enumerate();
+        let wanted = meeting_places(&walls, &self.settings.tour).into_iter().enumerate();
         wanted
             .map(|(local, arc)| {
                 let arc = self.free_near(taken, local, arc);
@@ -279,38 +270,48 @@ impl RegionView<'_> {
     }
 
     /// One tour through all walls, which takes along what demands it can; the others are served by excursions.
-    fn sketch_lean_round(&self, demands: &[DVec2], taken: &Attachments) -> Result<Sketch, RouteError> {
+    fn sketch_round(&self, demands: &[DVec2], taken: &Attachments) -> Result<Sketch, RouteError> {
         let s = self.settings;
         let walls: Vec<&ClosedCurve> = (0..self.walls.len()).map(|w| self.wall(w)).collect();
         let mut taken = taken.clone();
-        let places = self.met_by_one_tour(&[], &mut taken);
-        let (graph, cuts) = self.graph(&places, demands)?;
+        let places = self.met_by_one_tour(&mut taken);
         // The demands first, so that they have the numbers of their stops.
-        let among: Vec<u32> =
-            (0..demands.len()).map(|d| graph.terminal(d)).chain(cuts.iter().map(|c| c.vertex)).collect();
-        let distances = self.distances(&graph, &among)?;
+        let met = places.iter().map(|&(wall, arc)| walls[wall].point_at(arc));
+        let at: Vec<DVec2> = demands.iter().copied().chain(met).collect();
         let to_wall: Vec<Vec<f64>> =
             demands.iter().map(|&d| walls.iter().map(|w| w.nearest(d).distance).collect()).collect();
         let bound = vec![false; demands.len()];
+        let hops = self.straight(&at);
         let stops = Stops {
-            distances: &distances,
+            hops: &hops,
             to_wall: &to_wall,
             bound: &bound,
             root_cost: s.root_cost * s.width,
             length_cost: s.length_cost / s.width,
         };
-        let met: Vec<usize> = (demands.len()..among.len()).collect();
-        let (order, _) = TourDistances::new(&distances, &met).toured(self.solver, None, &s.tour)?;
-        let mut round: Vec<usize> = order.into_iter().map(|k| met[k]).collect();
+        let (order, _) = TourDistances::straight(&at[demands.len()..]).toured(self.solver, None, &s.tour)?;
+        let mut round: Vec<usize> = order.into_iter().map(|k| demands.len() + k).collect();
         let excursions = taken_along(&mut round, stops.excursions(), &stops, s.ring_cost);
         let stop = |k: usize| match k.checked_sub(demands.len()) {
             Some(place) => Stop::Place(place),
             None => Stop::Demand(k),
         };
         let tours = vec![round.into_iter().map(stop).collect()];
-        let mut sketch = Sketch { places, tours, round: true, ordered: true };
+        let mut sketch = Sketch { places, tours, round: true, ordered: true, moved: false };
         self.root(&excursions, &stops, &mut taken, &mut sketch, |k| demands[k], stop);
         Ok(sketch)
+    }
+
+    /// Straight hops between places.
+    fn straight<'a>(&'a self, places: &'a [DVec2]) -> Straight<'a, impl Fn(DVec2, DVec2) -> f64 + 'a> {
+        Straight {
+            places,
+            walls: &self.index,
+            cheapest: self.settings.coherence.min(1.0),
+            weight: |a, b| self.weight(a, b),
+            grid: self.settings.grid,
+            known: RefCell::default(),
+        }
     }
 
     /// Draws a sketch: the graph with all its places, and the shortest tour through the stops of each.
@@ -359,7 +360,7 @@ impl RegionView<'_> {
             cost += length;
             tours.push(tour);
         }
-        Ok(RegionPlan { graph, cuts, tours, demands: demands.to_vec(), sketch, cost, detour })
+        Ok(RegionPlan { graph, cuts, tours, demands: demands.to_vec(), sketch, cost })
     }
 
     /// The region's graph with the given places on its walls as attachments.
@@ -425,44 +426,6 @@ impl RegionView<'_> {
     fn somewhere(&self, demands: &[DVec2]) -> DVec2 {
         let wall = self.walls.first().map(|&w| self.curves[w].points()[0]);
         demands.first().copied().or(wall).unwrap_or_default()
-    }
-
-    /// The demands moved within their slack towards the tours of a plan.
-    fn relaxed(&self, plan: &RegionPlan) -> Result<Vec<DVec2>, RouteError> {
-        let s = self.settings;
-        let count = plan.demands.len();
-        // Points: the demands, then the other vertices of the graph as they are met.
-        let mut points = plan.demands.clone();
-        points.extend(plan.graph.positions());
-        let mut demand_at = vec![usize::MAX; plan.graph.vertex_count()];
-        for demand in (0..count).rev() {
-            demand_at[plan.graph.terminal(demand) as usize] = demand;
-        }
-        let place = |v: u32| match demand_at[v as usize] {
-            usize::MAX => count + v as usize,
-            demand => demand,
-        };
-        let mut neighbours = vec![Vec::new(); count];
-        for tour in &plan.tours {
-            plan.walk(tour, |path| {
-                for pair in path.windows(2) {
-                    for (here, there) in [(pair[0], pair[1]), (pair[1], pair[0])] {
-                        if let Some(met) = neighbours.get_mut(place(here)) {
-                            met.push(place(there));
-                        }
-                    }
-                }
-            })?;
-        }
-        let discs = Discs {
-            anchors: &self.anchors,
-            radius: s.slack,
-            walls: &self.index,
-            wall_keep: s.wall_keep * s.width,
-        };
-        discs.relax(&mut points, &neighbours);
-        points.truncate(count);
-        Ok(points.into_iter().map(|p| on_grid(p, s.grid)).collect())
     }
 }
 

@@ -1,5 +1,6 @@
 //! The solver of tours, behind a narrow trait.
 
+use argil_curve::DVec2;
 use argil_graph::DistanceMatrix;
 use argil_tour::{Metric, TourOptions, shortest_tour};
 
@@ -17,6 +18,12 @@ impl TourDistances {
     pub(crate) fn new(distances: &DistanceMatrix, stops: &[usize]) -> Self {
         let lengths = stops.iter().flat_map(|&a| stops.iter().map(move |&b| distances.get(a, b))).collect();
         Self { count: stops.len(), lengths }
+    }
+
+    /// Those as the crow flies.
+    pub(crate) fn straight(places: &[DVec2]) -> Self {
+        let lengths = places.iter().flat_map(|a| places.iter().map(|b| a.distance(*b))).collect();
+        Self { count: places.len(), lengths }
     }
 
     /// The order that a solver gives and the length of that tour.

@@ -1,6 +1,6 @@
 //! The places where a layer may start.
 
-use argil_curve::{ClosedCurve, DVec2};
+use argil_curve::{ClosedCurve, DVec2, OnCurve, Segment};
 
 /// Candidates of one layer are never more than this, whatever the spacing; the answer would be no better.
 const MOST_CANDIDATES: f64 = 1e6;
@@ -37,29 +37,49 @@ impl Candidates {
         let mut points = cycle.resampled(spacing.max(cycle.length() / MOST_CANDIDATES));
         let spacing = cycle.length() / points.len() as f64;
         let mut arcs: Vec<f64> = (0..points.len()).map(|k| k as f64 * spacing).collect();
+        let walk = Walk::along(cycle);
+        let n = cycle.segment_count();
+        let mut segment = 0;
+        let mut headings = Vec::with_capacity(points.len() + 1);
+        for &arc in &arcs {
+            while segment + 1 < n && cycle.arc_of(segment + 1) <= arc {
+                segment += 1;
+            }
+            let end = if segment + 1 < n { cycle.arc_of(segment + 1) } else { cycle.length() };
+            let length = end - cycle.arc_of(segment);
+            let t = if length > 0.0 { ((arc - cycle.arc_of(segment)) / length).clamp(0.0, 1.0) } else { 0.0 };
+            headings.push(walk.headings(&OnCurve { segment, t }));
+        }
         if let Some(arc) = also.filter(|arc| arc.is_finite()) {
             let arc = cycle.wrapped(arc);
             arcs.push(arc);
             points.push(cycle.point_at(arc));
+            headings.push(walk.headings(&cycle.locate(arc)));
         }
-        let headings = arcs.iter().map(|&arc| headings(cycle, arc)).collect();
         Self { points, headings, arcs }
     }
 }
 
-/// The directions of the walk before and behind an arc length: two of the cycle's segments if it is at a vertex, else one.
-fn headings(cycle: &ClosedCurve, arc: f64) -> Headings {
-    let on = cycle.locate(arc);
-    let n = cycle.segment_count();
-    let heading = |k: usize| {
-        let segment = cycle.segment(k % n);
-        (segment.end - segment.start).normalize_or_zero()
-    };
-    let segment = cycle.segment(on.segment);
-    let (begun, left) = (on.t * segment.length(), (1.0 - on.t) * segment.length());
-    Headings {
-        arriving: heading(if begun <= ON_VERTEX { on.segment + n - 1 } else { on.segment }),
-        leaving: heading(if left <= ON_VERTEX { on.segment + 1 } else { on.segment }),
+/// Length and direction of every segment of a cycle.
+struct Walk(Vec<(f64, DVec2)>);
+
+impl Walk {
+    fn along(cycle: &ClosedCurve) -> Self {
+        let length_and_heading =
+            |segment: Segment| (segment.length(), (segment.end - segment.start).normalize_or_zero());
+        Self(cycle.segments().map(length_and_heading).collect())
+    }
+
+    /// The directions of the walk before and behind a place: two of the cycle's segments if it is at a vertex, else one.
+    fn headings(&self, on: &OnCurve) -> Headings {
+        let n = self.0.len();
+        let (length, heading) = self.0[on.segment];
+        let (begun, left) = (on.t * length, (1.0 - on.t) * length);
+        let beside = |k: usize| self.0[k % n].1;
+        Headings {
+            arriving: if begun <= ON_VERTEX { beside(on.segment + n - 1) } else { heading },
+            leaving: if left <= ON_VERTEX { beside(on.segment + 1) } else { heading },
+        }
     }
 }
 

@@ -260,8 +260,7 @@ impl<'a> Ascent<'a> {
     fn is_held(&self, p: DVec2, nearest: f64) -> bool {
         // A candidate lies on the cycle, so a near one decides; a far one proves nothing.
         let across = self.settings.across;
-        nearest <= across
-            || self.ground.get_or_init(|| index_of(self.cycle)).nearest_within(p, across).is_some()
+        nearest <= across || self.ground.get_or_init(|| index_of(self.cycle)).is_within(p, across)
     }
 }
 

@@ -37,16 +37,18 @@ impl Fit<'_> {
     pub(crate) fn losses(&self, settings: &SliceSettings) -> Vec<Loss> {
         let width = settings.width;
         let layer = self.layer;
-        let (at, area) = (inner_point(self.original), self.original.unsigned_area());
+        let whole = || (inner_point(self.original), self.original.unsigned_area());
         if self.rings.is_empty() {
+            let (at, area) = whole();
             return vec![Loss::Vanished { layer, at, area }];
         }
         let index = SegmentIndex::new(self.rings.iter().flat_map(|ring| sides(ring)).collect(), width);
         let mut losses = Vec::new();
         if self.walled.0.is_empty() {
+            let (at, area) = whole();
             losses.push(Loss::Thin { layer, at, area, inset: self.deepest(width) });
         } else {
-            let printed = |spine: &&Vec<DVec2>| index.nearest_within(middle(spine), 0.1 * width).is_some();
+            let printed = |spine: &&Vec<DVec2>| index.is_within(middle(spine), 0.1 * width);
             losses.extend(self.spines.iter().filter(printed).map(|spine| {
                 let length = spine.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
                 Loss::Narrow { layer, at: middle(spine), length }

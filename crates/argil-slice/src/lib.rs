@@ -37,6 +37,7 @@ mod spine;
 mod stack;
 mod thin;
 mod wall;
+mod widening;
 mod winding;
 
 pub use argil_mesh as mesh;

@@ -40,10 +40,10 @@ pub(crate) fn mitre(
     let index = index_of(rings, width);
     let mut tips: Vec<Vec<(usize, f64)>> = vec![Vec::new(); rings.len()];
     for &vertex in outline.iter().flatten() {
-        let Some(nearest) = index.nearest_within(vertex, 2.0 * width) else { continue };
-        if nearest.distance <= REACH * width {
+        if index.is_within(vertex, REACH * width) {
             continue;
         }
+        let Some(nearest) = index.nearest_within(vertex, 2.0 * width) else { continue };
         let (number, k) = starts[nearest.index];
         let after = (k + 1) % rings[number].len();
         let to = |k: usize| rings[number][k].distance(nearest.point);

@@ -35,7 +35,7 @@ impl Boundary {
 
     fn holds(&self, p: DVec2, clearance: f64) -> bool {
         let odd = self.rings.iter().filter(|ring| contains(ring, p)).count() % 2 == 1;
-        odd && self.sides.nearest_within(p, clearance).is_none()
+        odd && !self.sides.is_within(p, clearance)
     }
 }
 
@@ -56,7 +56,7 @@ pub(crate) fn in_steps(ring: &[DVec2], step: f64) -> Vec<DVec2> {
 
 /// Whether some point of the outline is bare.
 pub(crate) fn is_bare_somewhere(outline: &[Vec<DVec2>], wall: &SegmentIndex, width: f64) -> bool {
-    let is_bare = |p: DVec2| wall.nearest_within(p, BARE * width).is_none();
+    let is_bare = |p: DVec2| !wall.is_within(p, BARE * width);
     outline.iter().any(|ring| in_steps(ring, 0.4 * width).into_iter().any(is_bare))
 }
 

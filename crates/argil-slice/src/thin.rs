@@ -37,7 +37,7 @@ pub(crate) fn with_spines(
     let lines = SegmentIndex::new(lines.map(|pair| Segment::new(pair[0], pair[1])).collect(), width);
     joined.0.retain(|polygon| {
         let ring = ring_points(polygon.exterior());
-        let is_beside = || ring.iter().all(|&p| lines.nearest_within(p, SPECK * width).is_some());
+        let is_beside = || ring.iter().all(|&p| lines.is_within(p, SPECK * width));
         has_spine(polygon, spines) || !is_beside()
     });
     for polygon in &mut joined {
@@ -46,7 +46,7 @@ pub(crate) fn with_spines(
         let stays = |hole: &LineString<f64>| {
             let area = Polygon::new(hole.clone(), Vec::new()).unsigned_area();
             let points = ring_points(hole);
-            let is_beside = || points.iter().all(|&p| outer.nearest_within(p, near).is_some());
+            let is_beside = || points.iter().all(|&p| outer.is_within(p, near));
             let is_pocket = || !outline.iter().any(|ring| contains(&points, ring[0]));
             let is_small = perimeter(&points) < LEAST_POCKET * width;
             area >= LEAST_HOLE * width * width && !is_beside() && !(is_small && is_pocket())

@@ -147,7 +147,7 @@ impl<'a> FirstWall<'a> {
             // What lies near the outline is the end of a spine and no corner.
             let sides =
                 SegmentIndex::new(outline.iter().flat_map(|ring| spine::sides(ring)).collect(), width);
-            let is_corner = |p: DVec2| sides.nearest_within(p, 0.4 * width).is_none();
+            let is_corner = |p: DVec2| !sides.is_within(p, 0.4 * width);
             let mut rings: Vec<_> = pieces.iter_mut().flat_map(|piece| &mut piece.rings).collect();
             mitre(&mut rings, &outline, is_corner, width, settings.grid);
         }

@@ -5,7 +5,7 @@ use crate::hairpin::Hairpins;
 use crate::placement::Placement;
 use crate::run::RunPlan;
 use crate::sharing::{Partner, Sharing};
-use argil_curve::{ClosedCurve, DVec2, SegmentIndex, held_spans};
+use argil_curve::{ArcSpan, ClosedCurve, DVec2, SegmentIndex, gaps, held_spans};
 
 /// Points are never planned closer than this share of the curve's length: a bridge of 1e-12 mm is a mistake
 /// in a setting, and must not fill the memory.
@@ -70,6 +70,10 @@ pub fn place_supports(above: &ClosedCurve, walls: &SegmentIndex, placement: &Pla
     let (along, step) = (placement.along.max(shortest), placement.step.max(shortest));
     let placement = &Placement { along, step, ..*placement };
     let walled = held_spans(above, walls, placement.across);
+    let is_held = |gap: &ArcSpan| gap.length <= placement.along;
+    if !walled.is_empty() && gaps(above.length(), &walled).iter().all(is_held) {
+        return Vec::new();
+    }
     let index = SegmentIndex::of_curves([above], cell_for(above, placement));
     let mut planner = Planner {
         above,

@@ -3,7 +3,7 @@
 use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex};
 
 use crate::TautOptions;
-use crate::clearing::Clearing;
+use crate::clearing::{Clearing, Surroundings};
 use crate::holding::Holding;
 
 /// Shares of the way to the chord that are tried in turn.
@@ -80,6 +80,7 @@ pub fn pulled_taut(path: &SlackPath<'_>, options: &TautOptions) -> Vec<DVec2> {
         edge_of.iter().for_each(|&k| holding.add(edge(&points, k as usize)));
     }
     let mut restless = vec![true; n];
+    let mut around = Surroundings::default();
     for sweep in 0..options.sweeps {
         let edges = SegmentIndex::new(
             edge_of.iter().map(|&k| edge(&points, k as usize)).collect(),
@@ -106,7 +107,9 @@ pub fn pulled_taut(path: &SlackPath<'_>, options: &TautOptions) -> Vec<DVec2> {
             }
             let (before, after) = ((k + n - 1) % n, (k + 1) % n);
             let chord = points[before].midpoint(points[after]) - points[k];
-            let push = if rooted[before] || rooted[k] { DVec2::ZERO } else { clearing.push(&points, k) };
+            clearing.look_round(&points, k, &mut around);
+            let is_rooted = rooted[before] || rooted[k];
+            let push = if is_rooted { DVec2::ZERO } else { clearing.push(&points, k, &around) };
             let pull = (chord + PUSH * push).clamp_length_max(STRIDE * options.width);
             for share in SHARES {
                 let to = points[k] + share * pull;
@@ -118,7 +121,7 @@ pub fn pulled_taut(path: &SlackPath<'_>, options: &TautOptions) -> Vec<DVec2> {
                     there < 0.0 && there < clear_of(points[k])
                 };
                 if turns_too_sharply(&points, k, to, path.fixed)
-                    || !clearing.allows(&points, k, to, [rooted[before], rooted[k]])
+                    || !clearing.allows(&points, (k, to), [rooted[before], rooted[k]], &around)
                     || path.clear_of.filter(|_| path.felt[k]).is_some_and(sinks)
                 {
                     continue;

@@ -93,6 +93,8 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
         let mut planned: Vec<PlannedLayer> = Vec::with_capacity(layers.len());
         let walls_of = |k: usize| SegmentIndex::of_curves(&walls[k], self.settings.width);
         let mut start: Option<Foothold> = None;
+        // What is below one layer are the walls of the next.
+        let mut standing: Option<SegmentIndex> = None;
         for (k, (layer, safeguard)) in layers.iter().zip(safeguards).enumerate().rev() {
             let above = planned.last().map(|p| &p.curve);
             if above.is_none() && layer.walls.is_empty() {
@@ -107,14 +109,15 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
                 },
             )?;
             let below = k.checked_sub(1).map_or_else(|| SegmentIndex::new(Vec::new(), 1.0), walls_of);
-            let (standing, seam) = ([&walls_of(k), &below], self.settings.seaming());
-            let place = foothold(&done.curve, above.zip(start), standing, &seam).or_else(|| {
+            let (own, seam) = (standing.take().unwrap_or_else(|| walls_of(k)), self.settings.seaming());
+            let place = foothold(&done.curve, above.zip(start), [&own, &below], &seam).or_else(|| {
                 let (place, arcs) = rechained(&done.curve, &planned, &below, &seam)?;
                 planned.iter_mut().zip(arcs).for_each(|(layer, arc)| layer.foothold = arc);
                 Some(place)
             });
             let place = place.unwrap_or_else(|| Foothold::nearest(&done.curve, start));
             start = Some(place);
+            standing = Some(below);
             planned.push(PlannedLayer { foothold: place.arc, ..done });
             observe(Progress::Layer { index: layer.index });
         }
@@ -182,7 +185,7 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
         let walls = model.walls();
         let demands: Vec<Demand> =
             supports.iter().map(|s| Demand { position: s.position, anchors: s.needs.clone() }).collect();
-        let above_index = above.map(|c| SegmentIndex::of_curves([c], settings.width));
+        let above_index = above.map(|c| SegmentIndex::of_curves([c], 0.5 * settings.width));
         let rings = field.polylines();
         let input = LayerInput {
             walls: &walls,
@@ -328,10 +331,17 @@ fn scattered(places: Vec<DVec2>, width: f64) -> Vec<DVec2> {
 }
 
 /// Which free vertices lie outside of all walls, where strand must clear what stands further down.
+///
+/// No wall parts a free vertex from the free one before it, for no strand goes through walls.
 fn outside(candidate: &Cycle, curves: &[ClosedCurve]) -> Vec<bool> {
     let outer: Vec<&ClosedCurve> = curves.iter().filter(|c| c.signed_area() > 0.0).collect();
+    let mut before = None;
     let free = candidate.points.iter().zip(&candidate.fixed);
-    free.map(|(&p, fixed)| !fixed && !outer.iter().any(|c| c.contains(p))).collect()
+    free.map(|(&p, fixed)| {
+        before = (!fixed).then(|| before.unwrap_or_else(|| !outer.iter().any(|c| c.contains(p))));
+        before == Some(true)
+    })
+    .collect()
 }
 
 /// The walls of a layer as curves.

@@ -36,7 +36,8 @@ impl Check<'_> {
         }
         let above = self.above?;
         let below = match ClosedCurve::new(points.to_vec()) {
-            Ok(curve) => SegmentIndex::of_curves([&curve], self.width),
+            // Questions reach `ε_across` far.
+            Ok(curve) => SegmentIndex::of_curves([&curve], 0.5 * self.width),
             Err(_) => SegmentIndex::new(Vec::new(), self.width),
         };
         let spans = unsupported_spans(above, &below, &self.criterion);

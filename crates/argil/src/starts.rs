@@ -284,9 +284,11 @@ impl Sight {
 
     /// How far the nearest root is, in w, if the place is on a wall.
     fn on_wall(&self, p: DVec2) -> Option<f64> {
-        self.walls.nearest_within(p, 0.1 * self.width)?;
-        let distances = self.roots.iter().map(|root| root.distance(p) / self.width);
-        Some(distances.fold(f64::INFINITY, f64::min))
+        let from_roots = || {
+            let squares = self.roots.iter().map(|root| root.distance_squared(p));
+            squares.fold(f64::INFINITY, f64::min).sqrt() / self.width
+        };
+        self.walls.is_within(p, 0.1 * self.width).then(from_roots)
     }
 }
 
