@@ -37,7 +37,6 @@ mod spine;
 mod stack;
 mod thin;
 mod wall;
-mod widening;
 mod winding;
 
 pub use argil_mesh as mesh;

@@ -1,6 +1,5 @@
 //! The few polygon operations the slicer needs, on top of `geo`.
 
-use crate::widening::widened;
 use geo::bool_ops::FillRule;
 use geo::buffer::{BufferStyle, LineCap, LineJoin};
 use geo::{Area, BooleanOps, Buffer, OpType};
@@ -53,8 +52,7 @@ pub(crate) fn dilation(
 /// undoes a small inset without rounding the corners off. Sharper corners are cut, since where the
 /// inset has eaten a short side the new corner sticks out of the original, at 60° by up to the distance.
 pub(crate) fn mitred_dilation(region: &MultiPolygon<f64>, distance: f64) -> MultiPolygon<f64> {
-    widened(region, distance)
-        .unwrap_or_else(|| offset(region, distance, LineJoin::Miter(60_f64.to_radians())))
+    offset(region, distance, LineJoin::Miter(60_f64.to_radians()))
 }
 
 /// All points within about `distance` of the lines, whose ends are square.
