@@ -135,13 +135,28 @@ impl RegionView<'_> {
         if self.walls.len() == 1 {
             return excursions();
         }
-        let round = || drawn(self.sketch_round(demands, taken)?);
+        let round = || self.cheapest_round(demands, taken, &drawn);
         #[cfg(feature = "rayon")]
         let (plan, round) = rayon::join(excursions, round);
         #[cfg(not(feature = "rayon"))]
         let (plan, round) = (excursions(), round());
         let (plan, round) = (plan?, round?);
         Ok(if round.cost < plan.cost { round } else { plan })
+    }
+
+    /// One tour through all walls, with all demands or with those that lie on its way.
+    fn cheapest_round(
+        &self,
+        demands: &[DVec2],
+        taken: &Attachments,
+        drawn: &impl Fn(Sketch) -> Result<RegionPlan, RouteError>,
+    ) -> Result<RegionPlan, RouteError> {
+        let some = drawn(self.sketch_round(demands, taken)?)?;
+        if demands.is_empty() {
+            return Ok(some);
+        }
+        let all = drawn(self.sketch_whole_round(demands, taken)?)?;
+        Ok(if all.cost < some.cost { all } else { some })
     }
 
     pub(crate) fn wall(&self, local: usize) -> &ClosedCurve {
@@ -256,10 +271,24 @@ impl RegionView<'_> {
         places.next().filter(|_| places.next().is_none())
     }
 
-    /// Where one tour through the walls meets each of them.
-    fn met_by_one_tour(&self, taken: &mut Attachments) -> Vec<(usize, f64)> {
+    /// One tour through all walls and all demands.
+    fn sketch_whole_round(&self, demands: &[DVec2], taken: &Attachments) -> Result<Sketch, RouteError> {
+        let places = self.met_by_one_tour(demands, &mut taken.clone());
+        let met = places.iter().map(|&(wall, arc)| self.wall(wall).point_at(arc));
+        let at: Vec<DVec2> = met.chain(demands.iter().copied()).collect();
+        let (order, _) = TourDistances::straight(&at).toured(self.solver, None, &self.settings.tour)?;
+        let stop = |k: usize| match k.checked_sub(places.len()) {
+            Some(demand) => Stop::Demand(demand),
+            None => Stop::Place(k),
+        };
+        let tours = vec![order.into_iter().map(stop).collect()];
+        Ok(Sketch { places, tours, round: true, ordered: true, moved: false })
+    }
+
+    /// Where one tour through the walls and the given points meets each of the walls.
+    fn met_by_one_tour(&self, points: &[DVec2], taken: &mut Attachments) -> Vec<(usize, f64)> {
         let walls: Vec<&ClosedCurve> = (0..self.walls.len()).map(|w| self.wall(w)).collect();
-        let wanted = meeting_places(&walls, &self.settings.tour).into_iter().enumerate();
+        let wanted = meeting_places(&walls, points, &self.settings.tour).into_iter().enumerate();
         wanted
             .map(|(local, arc)| {
                 let arc = self.free_near(taken, local, arc);
@@ -274,7 +303,7 @@ impl RegionView<'_> {
         let s = self.settings;
         let walls: Vec<&ClosedCurve> = (0..self.walls.len()).map(|w| self.wall(w)).collect();
         let mut taken = taken.clone();
-        let places = self.met_by_one_tour(&mut taken);
+        let places = self.met_by_one_tour(&[], &mut taken);
         // The demands first, so that they have the numbers of their stops.
         let met = places.iter().map(|&(wall, arc)| walls[wall].point_at(arc));
         let at: Vec<DVec2> = demands.iter().copied().chain(met).collect();

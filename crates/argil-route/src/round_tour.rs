@@ -21,24 +21,26 @@ impl Metric for Straight<'_> {
 /// Rounds of tour and adjustment; the places settle after two.
 const ROUNDS: usize = 3;
 
-/// The arc at which each wall is met by one tour through all of them.
+/// The arc at which each wall is met by one tour through all of them and through the demands.
 ///
 /// Begins at the place nearest to the middle of all, then alternates between a tour through the places and
 /// moving each place to the point of its wall that is nearest to the line between its neighbours.
-pub(crate) fn meeting_places(walls: &[&ClosedCurve], options: &TourOptions) -> Vec<f64> {
-    let all: Vec<DVec2> = walls.iter().flat_map(|w| w.points().iter().copied()).collect();
+pub(crate) fn meeting_places(walls: &[&ClosedCurve], demands: &[DVec2], options: &TourOptions) -> Vec<f64> {
+    let all: Vec<DVec2> =
+        walls.iter().flat_map(|w| w.points().iter().copied()).chain(demands.iter().copied()).collect();
     let middle = all.iter().sum::<DVec2>() / all.len().max(1) as f64;
     let mut arcs: Vec<f64> = walls.iter().map(|w| w.nearest(middle).s).collect();
     // The order is a guess along straight lines; the search for the last per cent is for the tour that is walked.
     let rough = TourOptions { kicks_per_node: 0.0, ..*options };
     for _ in 0..ROUNDS {
-        let places: Vec<DVec2> = walls.iter().zip(&arcs).map(|(w, &s)| w.point_at(s)).collect();
+        let met = walls.iter().zip(&arcs).map(|(w, &s)| w.point_at(s));
+        let places: Vec<DVec2> = met.chain(demands.iter().copied()).collect();
         let order = shortest_tour(&Straight(&places), &[], None, &rough).order;
         let n = order.len();
         if n < 3 {
             break;
         }
-        for (k, &node) in order.iter().enumerate() {
+        for (k, &node) in order.iter().enumerate().filter(|(_, node)| **node < walls.len()) {
             let line = Segment::new(places[order[(k + n - 1) % n]], places[order[(k + 1) % n]]);
             arcs[node] = nearest_to(walls[node], line);
         }
