@@ -60,7 +60,10 @@ fn obj_files() -> [(&'static str, &'static str); 4] {
 /// Layers in JSON and in SVG as programs write them, and what is none.
 fn layer_files() -> [(&'static str, &'static str); 6] {
     [
-        ("json", r#"{ "unit": "cm", "layer_height": 0.1, "layers": [[[[0,0],[2,0],[2,2],[0,2]]], [], [[[0,0],[1,0],[1,1]]]] }"#),
+        (
+            "json",
+            r#"{ "unit": "cm", "layer_height": 0.1, "layers": [[[[0,0],[2,0],[2,2],[0,2]]], [], [[[0,0],[1,0],[1,1]]]] }"#,
+        ),
         (
             "slic3r",
             r#"<?xml version="1.0" encoding="UTF-8" standalone="yes"?>
@@ -80,8 +83,14 @@ fn layer_files() -> [(&'static str, &'static str); 6] {
             "curves",
             r#"<svg><g><path d="m1 2c3 4 5 6 7 8s1 2 3 4q5 6 7 8t9-9a25 26 -30 0 1 50-25h4v5H1V2z"/></g><g><path d="M0 0L1 0L1 1Z"/></g></svg>"#,
         ),
-        ("entities", r#"<!DOCTYPE svg [<!ENTITY a "1 0 "><!ENTITY b "&a;&a;&b;">]><svg><g><polygon points="&b;"/></g></svg>"#),
-        ("not_read", r#"<svg viewBox="0 0 1e300 1"><g><text>7</text><path d="M0 0A1e300 1 0 0 1 9 9" clip-path="url(#a)"/></g></svg>"#),
+        (
+            "entities",
+            r#"<!DOCTYPE svg [<!ENTITY a "1 0 "><!ENTITY b "&a;&a;&b;">]><svg><g><polygon points="&b;"/></g></svg>"#,
+        ),
+        (
+            "not_read",
+            r#"<svg viewBox="0 0 1e300 1"><g><text>7</text><path d="M0 0A1e300 1 0 0 1 9 9" clip-path="url(#a)"/></g></svg>"#,
+        ),
     ]
 }
 
