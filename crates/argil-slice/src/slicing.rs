@@ -62,10 +62,10 @@ pub fn slice(mesh: &Mesh, settings: &SliceSettings) -> Result<Vec<Layer>, SliceE
 /// `None` where it has ended the work.
 ///
 /// # Errors
-/// Those of [`slice`].
+/// Those of [`slice()`].
 ///
 /// # Complexity
-/// That of [`slice`]; what one batch of layers leaves behind is let go before the next, but for the layers themselves.
+/// That of [`slice()`]; what one batch of layers leaves behind is let go before the next, but for the layers themselves.
 ///
 /// # Example
 /// ```
