@@ -16,8 +16,7 @@ use body::{KINDS, case_of, fault, shrunk};
 const SEEDS: Range<u64> = 0..200;
 /// Seeds whose strands still fall short, by what the audit finds: a list to be emptied. They are drawn like all others; one that
 /// is sound now is to be struck out.
-const SHORT: [(u64, &str); 8] = [
-    (9, "a wall that is longer than wanted by 8e-7 mm, found by the invariants and not by the audit"),
+const SHORT: [(u64, &str); 7] = [
     (14, "missed wall: links of chains that meet at a point, two walls"),
     (23, "missed wall: links of chains that meet at a point"),
     (59, "missed wall: links of chains that meet at a point"),
