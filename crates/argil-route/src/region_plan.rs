@@ -67,6 +67,10 @@ pub(crate) struct RegionPlan {
     cost: f64,
 }
 
+/// A tour through all demands is taken where it costs no more than this share of one through some: it has no tip that dies, and a
+/// layer that is planned otherwise than the one above stands apart from it.
+const WORTH: f64 = 0.9;
+
 /// A stop of a sketched tour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Stop {
@@ -152,11 +156,12 @@ impl RegionView<'_> {
         drawn: &impl Fn(Sketch) -> Result<RegionPlan, RouteError>,
     ) -> Result<RegionPlan, RouteError> {
         let some = drawn(self.sketch_round(demands, taken)?)?;
-        if demands.is_empty() {
+        // Round two walls such a tour is a ring.
+        if demands.is_empty() || self.walls.len() < 3 {
             return Ok(some);
         }
         let all = drawn(self.sketch_whole_round(demands, taken)?)?;
-        Ok(if all.cost < some.cost { all } else { some })
+        Ok(if all.cost < WORTH * some.cost { all } else { some })
     }
 
     pub(crate) fn wall(&self, local: usize) -> &ClosedCurve {
