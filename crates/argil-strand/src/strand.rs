@@ -54,7 +54,8 @@ pub struct StrandLayer {
 /// # Example
 /// ```
 /// use argil_strand::{DVec3, Role, Step};
-/// let step = Step { layer: 1, from: DVec3::new(0.0, 0.0, 0.5), to: DVec3::new(0.0, 0.0, 1.0), role: Role::Seam };
+/// let [from, to] = [0.5, 1.0].map(|z| DVec3::new(0.0, 0.0, z));
+/// let step = Step { layer: 1, from, to, role: Role::Seam, height: 0.5 };
 /// assert_eq!(step.length(), 0.5); // straight up
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
