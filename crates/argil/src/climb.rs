@@ -1,5 +1,6 @@
 //! From planned cycles to the strand.
 
+use argil_slice::Layer;
 use argil_strand::{Move, Role, Strand, StrandLayer, SupportSource};
 
 use crate::descent::PlannedLayer;
@@ -17,40 +18,40 @@ pub(crate) struct Climbed {
     pub(crate) skirt: Option<SkirtLaid>,
 }
 
-/// Joins the cycles by a chain of starts, with skirt and spiral as asked for. Where they are not `checked`, the starts stay where
+/// Joins the cycles, planned for these slices, by a chain of starts, with skirt and spiral as asked for. Where they are not `checked`, the starts stay where
 /// the seam stage wants them.
 pub(crate) fn climbed(
-    layers: &[PlannedLayer],
+    (layers, slices): (&[PlannedLayer], &[Layer]),
     seam: &mut impl Seam,
     settings: &Settings,
     checked: bool,
 ) -> Result<Climbed, PlanError> {
     if !settings.spiral {
-        let (strand, skirt) = joined(layers, seam, settings, checked)?;
+        let (strand, skirt) = joined((layers, slices), seam, settings, checked)?;
         return Ok(Climbed { strand, lies: Vec::new(), skirt });
     }
-    let (strand, skirt) = joined(&aligned(layers, settings)?, seam, settings, checked)?;
+    let (strand, skirt) = joined((&aligned(layers, settings)?, slices), seam, settings, checked)?;
     let (strand, lies) = spiral(strand, settings)?;
     if lies.iter().any(|lie| lie.climb == Climb::Rising) {
         return Ok(Climbed { strand, lies, skirt });
     }
     // Where no layer rises, starts are hidden as they are in level layers.
-    let (strand, skirt) = joined(layers, seam, &Settings { spiral: false, ..*settings }, checked)?;
+    let (strand, skirt) = joined((layers, slices), seam, &Settings { spiral: false, ..*settings }, checked)?;
     Ok(Climbed { strand, lies, skirt })
 }
 
 /// The cycles as one strand of level layers, and its skirt.
 fn joined(
-    layers: &[PlannedLayer],
+    (layers, slices): (&[PlannedLayer], &[Layer]),
     seam: &mut impl Seam,
     settings: &Settings,
     checked: bool,
 ) -> Result<(Strand, Option<SkirtLaid>), PlanError> {
     let around = |skirt| Ground::new(&layers.first()?.curve, skirt, settings.width);
     let ground = settings.skirt.as_ref().and_then(around);
-    let opened = match opened_layers(layers, seam, settings, checked, ground.as_ref()) {
+    let opened = match opened_layers((layers, slices), seam, settings, checked, ground.as_ref()) {
         // No chain begins in sight of the skirt: the part comes first.
-        Err(_) if ground.is_some() => opened_layers(layers, seam, settings, checked, None)?,
+        Err(_) if ground.is_some() => opened_layers((layers, slices), seam, settings, checked, None)?,
         opened => opened?,
     };
     let skirt =

@@ -4,17 +4,20 @@
 //! broken off. Where a wall turns off into the line along a thin part, strand that comes from inside and goes on along that
 //! line crosses no loop, and yet pierces the wall as one sees it.
 
-use argil_curve::{ClosedCurve, DVec2, SegmentIndex};
+use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex};
 use geo_types::MultiPolygon;
 
-/// Strand nearer than this to where a bead fits is on the wall, in w.
-const BESIDE: f64 = 1.0 / 6.0;
+/// Strand nearer than this to the rim of where a bead fits is on the wall, in w.
+const BESIDE: f64 = 1.0 / 12.0;
 
 /// Least length along the wall between one side and the other, in w.
 const ALONG: f64 = 1.05;
 
 /// Spacing of the samples, in w. Less than twice [`BESIDE`], so that no change of sides is missed.
 const STEP: f64 = 0.15;
+
+/// Spacing of the samples of a step, in w: a short one has to show its side as well.
+const FINE: f64 = 0.02;
 
 /// Where a bead fits in a layer.
 pub(crate) struct Walled {
@@ -55,14 +58,13 @@ impl Walled {
         let count = (path.length() / (STEP * self.width)).ceil().clamp(3.0, 1e7) as usize;
         let step = path.length() / count as f64;
         let sample = |k: usize| path.point_at(((k % count) as f64 + 0.5) * step);
-        let is_free_at = |p: DVec2| !self.sides.is_within(p, BESIDE * self.width);
         // Once round, from free strand to the same: what begins beside the wall would have no side to come from.
-        let Some(first) = (0..count).find(|&k| is_free_at(sample(k))) else { return Vec::new() };
+        let Some(first) = (0..count).find(|&k| self.is_free(sample(k))) else { return Vec::new() };
         let mut found = Vec::new();
         // The side that the path was on before it met the wall, and how long it has run along the wall since.
         let (mut side, mut run) = (self.contains(sample(first)), 0.0);
         for p in (first + 1..=first + count).map(sample) {
-            if !is_free_at(p) {
+            if !self.is_free(p) {
                 run += step;
             } else if run > 0.0 {
                 let now = self.contains(p);
@@ -73,6 +75,41 @@ impl Walled {
             }
         }
         found
+    }
+
+    /// Whether a step, and the strand behind it, get from one side of the wall to the other with less than a bead along the wall between.
+    ///
+    /// # Complexity
+    /// O(n k) for n samples of the step and a bead of strand, with k sides near.
+    pub(crate) fn is_pierced(&self, step: Segment, strand: impl Iterator<Item = Segment>) -> bool {
+        let (mut side, mut run) = (None, 0.0);
+        for (number, segment) in std::iter::once(step).chain(strand).enumerate() {
+            let count = (segment.length() / (FINE * self.width)).ceil().clamp(1.0, 1e7);
+            for k in 0..count as usize {
+                let p = segment.point_at((k as f64 + 0.5) / count);
+                let is_strand = number > 0;
+                if !self.is_free(p) {
+                    run += segment.length() / count;
+                    if is_strand && run >= ALONG * self.width {
+                        return false;
+                    }
+                    continue;
+                }
+                let now = self.contains(p);
+                if side.is_some_and(|side| side != now) && run < ALONG * self.width {
+                    return true;
+                }
+                if is_strand {
+                    return false;
+                }
+                (side, run) = (Some(now), 0.0);
+            }
+        }
+        false
+    }
+
+    fn is_free(&self, p: DVec2) -> bool {
+        !self.sides.is_within(p, BESIDE * self.width)
     }
 }
 
@@ -121,6 +158,23 @@ mod tests {
             turned.rotate_left(1);
             assert_eq!(tile().passages(&path(&turned)).len(), 2, "begun at {:?}", turned[0]);
         }
+    }
+
+    #[test]
+    fn a_step_onto_the_wall_pierces_it_where_the_strand_leaves_on_the_other_side() {
+        let way = |points: &[(f64, f64)]| {
+            let points: Vec<DVec2> = points.iter().map(|&p| DVec2::from(p)).collect();
+            points.windows(2).map(|pair| Segment::new(pair[0], pair[1])).collect::<Vec<_>>()
+        };
+        let is_pierced = |points: &[(f64, f64)]| {
+            let mut way = way(points).into_iter();
+            tile().is_pierced(way.next().unwrap(), way)
+        };
+        assert!(is_pierced(&[(5.0, -0.4), (5.0, 0.0), (5.6, 0.0), (5.6, 4.0)]), "0.6 mm along the wall");
+        assert!(!is_pierced(&[(5.0, -0.4), (5.0, 0.0), (7.0, 0.0), (7.0, 4.0)]), "2 mm along the wall");
+        assert!(!is_pierced(&[(5.0, 0.4), (5.0, 0.0), (5.6, 0.0), (5.6, 4.0)]), "from inside to inside");
+        assert!(!is_pierced(&[(5.0, -0.1), (5.0, 0.0), (5.6, 0.0), (5.6, 4.0)]), "from the wall itself");
+        assert!(is_pierced(&[(5.0, -0.4), (5.0, 0.4), (5.6, 0.4), (5.6, 4.0)]), "straight through");
     }
 
     #[test]

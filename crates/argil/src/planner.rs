@@ -267,7 +267,7 @@ impl<S: Slice, G: Safeguard, U: Support, R: Route, E: Smooth, T: Tauten, C: Seam
             return Err(PlanError::Nothing);
         }
         let seam = &mut Watched { stage: &mut self.seam, watch };
-        let joined = timed(&mut times.seam, || climbed(&planned, seam, settings, self.checked));
+        let joined = timed(&mut times.seam, || climbed((&planned, layers), seam, settings, self.checked));
         // A chain of which the search was ended fails as well.
         watch.check()?;
         let climbed = joined?;

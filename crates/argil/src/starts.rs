@@ -1,13 +1,18 @@
 //! Where each layer begins, and the steps from layer to layer.
 
-use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex, on_grid};
+use std::cell::OnceCell;
+
+use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex, on_grid, self_crossings};
 use argil_route::Leg;
 use argil_seam::SeamError;
+use argil_slice::Layer;
 use argil_strand::{Move, Role};
+use geo_types::MultiPolygon;
 
 use crate::Settings;
 use crate::descent::PlannedLayer;
 use crate::ends::Exposure;
+use crate::passage::Walled;
 use crate::skirt::Ground;
 use crate::stages::Seam;
 
@@ -38,22 +43,27 @@ const REPLANS: usize = 8;
 /// How far round a start that is left out none lies, in w.
 const LEFT_OUT: f64 = 0.3;
 
+/// A cycle counts as closed this far from its start, mm; what of the step lies nearer may stand for the start itself.
+const CLOSING: f64 = 0.05;
+/// Vertices no farther apart than this are one place, mm.
+const ON_VERTEX: f64 = 2e-4;
+
 /// A layer opened at its start: the place, and the moves from there back to it.
 pub(crate) type Opened = (DVec2, Vec<Move>);
 
-/// The layers, each opened at a start that a short, clear and held step leads to; the lowest in sight of a skirt, if there is one. Where
-/// they are not `checked`, the starts stay where the seam stage wants them.
+/// The layers, each opened at a start that a short, clear and held step leads to, which goes through no wall; the lowest in sight of a skirt,
+/// if there is one. `slices` are what they were planned for. Where they are not `checked`, the starts stay where the seam stage wants them.
 ///
 /// # Errors
 /// Those of the seam stage; [`SeamError::NoStep`] where a start gives way on the grid and no other place of its layer will do.
 pub(crate) fn opened_layers(
-    layers: &[PlannedLayer],
+    (layers, slices): (&[PlannedLayer], &[Layer]),
     seam: &mut impl Seam,
     settings: &Settings,
     checked: bool,
     skirt: Option<&Ground>,
 ) -> Result<Vec<Opened>, SeamError> {
-    let stack = Stack::new(layers, settings, skirt);
+    let stack = Stack::new((layers, slices), settings, skirt);
     let longest = settings.seaming().reach;
     let levels = levels(longest);
     let nothing = vec![Vec::new(); layers.len()];
@@ -122,6 +132,7 @@ impl Level {
 /// The planned layers, bottom first, and what matters to where they begin.
 struct Stack<'a> {
     layers: &'a [PlannedLayer],
+    slices: &'a [Layer],
     settings: &'a Settings,
     cycles: Vec<ClosedCurve>,
     sights: Vec<Sight>,
@@ -132,11 +143,16 @@ struct Stack<'a> {
 }
 
 impl<'a> Stack<'a> {
-    fn new(layers: &'a [PlannedLayer], settings: &'a Settings, skirt: Option<&'a Ground>) -> Self {
+    fn new(
+        (layers, slices): (&'a [PlannedLayer], &'a [Layer]),
+        settings: &'a Settings,
+        skirt: Option<&'a Ground>,
+    ) -> Self {
         let sights: Vec<Sight> = layers.iter().map(|layer| Sight::of(layer, settings.width)).collect();
         let exposure = |sight: &Sight| Exposure::of(&sight.walls, settings.width);
         Self {
             layers,
+            slices,
             settings,
             cycles: layers.iter().map(|layer| layer.curve.clone()).collect(),
             ends: [sights.first().filter(|_| skirt.is_none()).map(exposure), sights.last().map(exposure)],
@@ -201,34 +217,39 @@ impl<'a> Stack<'a> {
         let mut climbed: Vec<Opened> = Vec::with_capacity(starts.len());
         let mut stuck = Vec::new();
         for (k, (layer, &start)) in self.layers.iter().zip(starts).enumerate() {
-            let cleared = match climbed.last() {
-                None => None,
-                Some((from, _)) => {
-                    let (below, sight) = (&self.cycles[k - 1], &self.sights[k]);
-                    let step = Step { from: *from, below, layer, sight, settings: self.settings };
-                    let cleared = step.cleared(start, reach, anywhere);
-                    if cleared.is_none() {
-                        stuck.push(k);
-                    }
-                    cleared
-                }
+            let from = climbed.last().zip(k.checked_sub(1)).map(|((from, _), k)| (*from, &self.cycles[k]));
+            let walled = self.slices.get(k).map(|slice| &slice.walled);
+            let ascent = Ascent {
+                from,
+                layer,
+                sight: &self.sights[k],
+                walled,
+                settings: self.settings,
+                walls: OnceCell::new(),
             };
+            let cleared = ascent.cleared(start, reach, anywhere);
+            if cleared.is_none() {
+                stuck.push(k);
+            }
             climbed.push(cleared.unwrap_or_else(|| opened(layer, start, self.settings.grid)));
         }
         if stuck.is_empty() { Ok(climbed) } else { Err(stuck) }
     }
 }
 
-/// The step from the end of one layer to the start of the next.
-struct Step<'a> {
-    from: DVec2,
-    below: &'a ClosedCurve,
+/// The way from the end of one layer on to the next.
+struct Ascent<'a> {
+    /// Where the layer below ends, and its cycle; the lowest has none.
+    from: Option<(DVec2, &'a ClosedCurve)>,
     layer: &'a PlannedLayer,
     sight: &'a Sight,
+    walled: Option<&'a MultiPolygon<f64>>,
     settings: &'a Settings,
+    /// The walls of `walled`, once they are asked for.
+    walls: OnceCell<Walled>,
 }
 
-impl Step<'_> {
+impl Ascent<'_> {
     /// The cycle opened at `start`, or at the nearest place along it to which the step is clear, held and no longer than `reach`: a step
     /// that runs along the very strand that it ends on may cross it by one step of the grid after rounding, and a start that
     /// had to give way on the layer below is made up for here. `anywhere` on the cycle, where no place nearby will do.
@@ -243,7 +264,7 @@ impl Step<'_> {
         let elsewhere = (0..count).map(|k| k as f64 * length / count as f64);
         let mut beside_root = None;
         for arc in nearby.chain(elsewhere).map(|arc| arc.rem_euclid(length)) {
-            if self.from.distance(self.layer.curve.point_at(arc)) > reach {
+            if !self.is_within(self.layer.curve.point_at(arc), reach) {
                 continue;
             }
             let place = opened(self.layer, arc, self.settings.grid);
@@ -258,10 +279,35 @@ impl Step<'_> {
         beside_root
     }
 
+    fn is_within(&self, place: DVec2, reach: f64) -> bool {
+        self.from.is_none_or(|(from, _)| from.distance(place) <= reach)
+    }
+
     fn is_sound(&self, opened: &Opened, reach: f64) -> bool {
-        self.from.distance(opened.0) <= reach
-            && self.below.nearest(opened.0).distance <= self.settings.seaming().across
-            && is_clear(self.from, opened)
+        let (begin, _) = *opened;
+        let across = self.settings.seaming().across;
+        let stretches = stretches(opened);
+        self.is_within(begin, reach)
+            && self.from.is_none_or(|(_, below)| below.nearest(begin).distance <= across)
+            && (self.is_vertex(begin) || is_simple(begin, &stretches))
+            && self.from.is_none_or(|(from, _)| {
+                let step = Segment::new(from, begin);
+                let closing = step.point_at(1.0 - (CLOSING / step.length()).min(1.0));
+                is_clear(&step, &stretches)
+                    && is_simple(closing, &stretches)
+                    && !self.is_pierced(step, &stretches)
+            })
+    }
+
+    fn is_pierced(&self, step: Segment, stretches: &[Segment]) -> bool {
+        let walls =
+            || self.walled.map(|walled| self.walls.get_or_init(|| Walled::new(walled, self.settings.width)));
+        step.length() > 0.0 && walls().is_some_and(|walls| walls.is_pierced(step, stretches.iter().copied()))
+    }
+
+    /// Whether the cycle has a vertex there already, so that it is none the worse for beginning there.
+    fn is_vertex(&self, place: DVec2) -> bool {
+        self.layer.curve.points().contains(&place)
     }
 }
 
@@ -292,14 +338,33 @@ impl Sight {
     }
 }
 
-/// Whether the step from `from` to an opened cycle crosses none of its stretches, and neither do the two that meet in
-/// its beginning: cut in two on the grid, a stretch that touches a wall may cross it.
-fn is_clear(from: DVec2, (begin, moves): &Opened) -> bool {
+/// The stretches of an opened cycle, from its start back to it.
+fn stretches((begin, moves): &Opened) -> Vec<Segment> {
     let ends = std::iter::once(*begin).chain(moves.iter().map(|m| m.to));
-    let stretches: Vec<Segment> = ends.zip(moves).map(|(start, m)| Segment::new(start, m.to)).collect();
-    let step = Segment::new(from, *begin);
-    let around = [Some(&step), stretches.first(), stretches.last()];
-    around.into_iter().flatten().all(|near| !stretches.iter().any(|stretch| stretch.crosses(near)))
+    ends.zip(moves).map(|(start, m)| Segment::new(start, m.to)).collect()
+}
+
+/// Whether a step crosses none of the stretches that it leads to.
+fn is_clear(step: &Segment, stretches: &[Segment]) -> bool {
+    !stretches.iter().any(|stretch| stretch.crosses(step))
+}
+
+/// Whether a cycle crosses itself nowhere if it begins at a place that is not quite its own: one that is cut in two on the grid may, where
+/// another stretch touches it. All the rest of it is known to be sound.
+fn is_simple(begin: DVec2, stretches: &[Segment]) -> bool {
+    let [first, .., last] = stretches else { return true };
+    let (first, last) = (Segment::new(begin, first.end), Segment::new(last.start, begin));
+    let between = &stretches[1..stretches.len() - 1];
+    let others = |p: DVec2| between.iter().filter(|s| s.start.distance(p) <= ON_VERTEX).count();
+    if !is_clear(&first, between) || !is_clear(&last, between) {
+        return false;
+    }
+    // The first vertex behind the start is one of those between.
+    if others(first.end) <= 1 && others(begin) == 0 && others(last.start) == 0 {
+        return true;
+    }
+    let points: Vec<DVec2> = stretches.iter().skip(1).map(|s| s.start).chain([begin]).collect();
+    self_crossings(&points).is_empty()
 }
 
 /// The cycle as moves from its start at the given arc back to it.
