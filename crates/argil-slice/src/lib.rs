@@ -31,6 +31,7 @@ mod section;
 mod settings;
 mod sheet;
 mod simplification;
+mod slender;
 mod slicing;
 mod soundness;
 mod spine;

@@ -6,6 +6,7 @@ use crate::layer::{Loss, WallLoop};
 use crate::mitre::mitre;
 use crate::region::{self, perimeter, polygon_through, ring_points, signed_area};
 use crate::simplification::{rounded, simplified};
+use crate::slender::{is_strip_lost, thickened};
 use crate::soundness::unsound;
 use crate::spine::{self, is_bare_somewhere};
 use crate::thin::{HALF_LANE, has_spine, with_spines};
@@ -61,24 +62,32 @@ pub(crate) fn walls(layer: usize, outline: &MultiPolygon<f64>, settings: &SliceS
     let mut firsts = Vec::with_capacity(simple.len());
     for polygon in &simple {
         let first = Source { polygon, distance: 0.5 * settings.width, wall: 0, thin: false };
-        let mut first = FirstWall::of(first, settings);
+        let mut first = FirstWall::of(first, first.pieces(ATTEMPTS[0], settings), settings);
         let walls = if first.walled.0.is_empty() { 1 } else { settings.walls };
         pieces.append(&mut first.pieces);
         firsts.push(first);
         for wall in 1..walls {
             let distance = (wall as f64 + 0.5) * settings.width;
-            let before = pieces.len();
-            pieces.extend(Source { polygon, distance, wall, thin: false }.pieces(ATTEMPTS[0], settings));
-            losses.extend(slight_parts(layer, polygon, distance, &pieces[before..], settings));
-            if pieces.len() == before {
+            let source = Source { polygon, distance, wall, thin: false };
+            let mut further = source.pieces(ATTEMPTS[0], settings);
+            if !slight_parts(layer, polygon, distance, &further, settings).is_empty() {
+                further = source.widened_pieces(settings);
+            }
+            losses.extend(slight_parts(layer, polygon, distance, &further, settings));
+            if further.is_empty() {
                 break;
             }
+            pieces.append(&mut further);
         }
     }
-    let pieces = sound_pieces(pieces, layer, settings, &mut losses);
-    for ((first, polygon), original) in firsts.iter().zip(&simple).zip(outline) {
+    let faulty = faulty_pieces(&pieces, settings.grid);
+    if faulty.contains(&true) {
+        let widened = widened(pieces, &faulty, &mut firsts, settings);
+        pieces = sound_pieces(widened, layer, settings, &mut losses);
+    }
+    for (first, original) in firsts.iter().zip(outline) {
         let is_its =
-            |piece: &&Piece<'_>| piece.source.wall == 0 && std::ptr::eq(piece.source.polygon, polygon);
+            |piece: &&Piece<'_>| piece.source.wall == 0 && std::ptr::eq(piece.source.polygon, first.polygon);
         let rings: Vec<&Vec<DVec2>> = pieces.iter().filter(is_its).flat_map(|piece| &piece.rings).collect();
         let FirstWall { outline, walled, spines, .. } = first;
         losses.extend(Fit { layer, original, outline, walled, spines, rings: &rings }.losses(settings));
@@ -117,6 +126,7 @@ pub(crate) fn walls_along(
 
 /// The first wall of an outline and how it came about.
 struct FirstWall<'a> {
+    polygon: &'a Polygon<f64>,
     pieces: Vec<Piece<'a>>,
     /// The outline's rings.
     outline: Vec<Vec<DVec2>>,
@@ -126,13 +136,20 @@ struct FirstWall<'a> {
 }
 
 impl<'a> FirstWall<'a> {
-    fn of(source: Source<'a>, settings: &SliceSettings) -> Self {
+    /// From the pieces that it has without thin lines.
+    fn of(source: Source<'a>, mut pieces: Vec<Piece<'a>>, settings: &SliceSettings) -> Self {
         let width = settings.width;
-        let mut pieces = source.pieces(ATTEMPTS[0], settings);
-        let walled = MultiPolygon(pieces.iter().map(|piece| piece.region.clone()).collect());
         let outline: Vec<Vec<DVec2>> = region::rings(source.polygon).map(ring_points).collect();
-        let mut rings: Vec<_> = pieces.iter_mut().flat_map(|piece| &mut piece.rings).collect();
-        let index = mitre(&mut rings, &outline, |_| true, width, settings.grid);
+        let mitred = |pieces: &mut Vec<Piece<'_>>| {
+            let mut rings: Vec<_> = pieces.iter_mut().flat_map(|piece| &mut piece.rings).collect();
+            mitre(&mut rings, &outline, |_| true, width, settings.grid)
+        };
+        let mut index = mitred(&mut pieces);
+        if is_strip_lost(&outline, &index, width) {
+            pieces = source.widened_pieces(settings);
+            index = mitred(&mut pieces);
+        }
+        let walled = MultiPolygon(pieces.iter().map(|piece| piece.region.clone()).collect());
         let mut spines = Vec::new();
         if is_bare_somewhere(&outline, &index, width) {
             spines = spine::spines(&outline, &index, width);
@@ -140,7 +157,8 @@ impl<'a> FirstWall<'a> {
         if !spines.is_empty() {
             let joined = with_spines(&walled, &spines, &outline, width);
             let piece = |region: Polygon<f64>| {
-                let thin = has_spine(&region, &spines);
+                let is_thin = |old: &Piece<'_>| old.source.thin && old.region.intersects(&region);
+                let thin = has_spine(&region, &spines) || pieces.iter().any(is_thin);
                 Source { thin, ..source }.piece(region, ATTEMPTS[0], settings)
             };
             pieces = joined.into_iter().filter_map(piece).collect();
@@ -151,7 +169,7 @@ impl<'a> FirstWall<'a> {
             let mut rings: Vec<_> = pieces.iter_mut().flat_map(|piece| &mut piece.rings).collect();
             mitre(&mut rings, &outline, is_corner, width, settings.grid);
         }
-        Self { pieces, outline, walled, spines }
+        Self { polygon: source.polygon, pieces, outline, walled, spines }
     }
 }
 
@@ -189,6 +207,19 @@ impl<'a> Source<'a> {
             }
         }
         opened.into_iter().filter_map(|region| self.piece(region, cleaning, settings)).collect()
+    }
+
+    /// The pieces with what is slender widened; opened as little as any.
+    fn widened_pieces(self, settings: &SliceSettings) -> Vec<Piece<'a>> {
+        let (width, chord) = (settings.width, CHORD * settings.width);
+        let [whole, strips] = thickened(&region::inset(self.polygon, self.distance, chord), width, chord);
+        let opening = ATTEMPTS[0].opening * width;
+        let opened = region::mitred_dilation(&region::inset(&whole, opening, chord), opening);
+        let piece = |region: Polygon<f64>| {
+            let thin = self.thin || strips.intersects(&region);
+            Source { thin, ..self }.piece(region, ATTEMPTS[0], settings)
+        };
+        opened.into_iter().filter_map(piece).collect()
     }
 
     fn piece(self, region: Polygon<f64>, cleaning: Cleaning, settings: &SliceSettings) -> Option<Piece<'a>> {
@@ -244,6 +275,34 @@ fn simpler(polygon: &Polygon<f64>, width: f64) -> Polygon<f64> {
         .map(|ring| simplified(&ring_points(ring), OUTLINE_TOLERANCE * width))
         .collect();
     if rings[0].len() < 3 { polygon.clone() } else { polygon_through(&rings) }
+}
+
+/// The pieces with each first wall that has a faulty one made anew, its slender parts widened, where that makes it sound by itself.
+fn widened<'a>(
+    mut pieces: Vec<Piece<'a>>,
+    faulty: &[bool],
+    firsts: &mut [FirstWall<'a>],
+    settings: &SliceSettings,
+) -> Vec<Piece<'a>> {
+    let faults: Vec<Source<'a>> = pieces
+        .iter()
+        .zip(faulty)
+        .filter(|(piece, is_faulty)| **is_faulty && piece.source.wall == 0)
+        .map(|(piece, _)| Source { thin: false, ..piece.source })
+        .collect();
+    for first in firsts {
+        let Some(source) = faults.iter().find(|source| std::ptr::eq(source.polygon, first.polygon)) else {
+            continue;
+        };
+        let mut anew = FirstWall::of(*source, source.widened_pieces(settings), settings);
+        if !anew.pieces.is_empty() && !faulty_pieces(&anew.pieces, settings.grid).contains(&true) {
+            pieces
+                .retain(|piece| piece.source.wall > 0 || !std::ptr::eq(piece.source.polygon, first.polygon));
+            pieces.append(&mut anew.pieces);
+            *first = anew;
+        }
+    }
+    pieces
 }
 
 /// Replaces the pieces whose loops touch themselves or others by better cleaned ones, and drops those that

@@ -1,0 +1,74 @@
+//! Insets of which parts are too narrow for two lanes side by side.
+//!
+//! Where a part is hardly wider than a bead, the inset is a strip of a few hundredths of a bead, or a row of slivers. Rounded to
+//! the grid, their two sides touch. To drop them would leave the part bare; so the strip is made as wide as lanes need, and the slivers
+//! are joined to one strip.
+
+use crate::region::{dilation, inset, mitred_dilation, perimeter, ring_points, signed_area};
+use crate::spine::sides;
+use argil_curve::SegmentIndex;
+use geo::BooleanOps;
+use geo_types::MultiPolygon;
+use glam::DVec2;
+
+/// Parts narrower than twice this, in w, are slender.
+const SLENDER: f64 = 0.08;
+
+/// How much slender parts grow on every side, in w: their lanes are then twice this apart, and no farther than this from where they
+/// belong.
+const GROWTH: f64 = 0.025;
+
+/// Gaps up to twice this, in w, between slender parts are closed.
+const GAP: f64 = 0.5;
+
+/// Slender parts shorter round than this, in w, are the tips of corners and stay as they are.
+const LEAST: f64 = 0.7;
+
+/// Spacing of the places where the wall is looked for, in w.
+const STEP: f64 = 0.4;
+
+/// A wall farther than this from its place, in w, is not there.
+const MISSING: f64 = 0.06;
+
+/// How much nearer than half a bead the outline may be to a place of the wall, in w.
+const SLACK: f64 = 0.001;
+
+/// Whether the wall is missing somewhere half a bead inside of the outline, where its place is as far as that from all of the outline.
+///
+/// # Complexity
+/// O(n k) for n places, of which the k where there is no wall are held against the whole outline.
+pub(crate) fn is_strip_lost(outline: &[Vec<DVec2>], wall: &SegmentIndex, width: f64) -> bool {
+    let half = 0.5 * width;
+    let mut whole: Option<SegmentIndex> = None;
+    let mut fits = |place: DVec2| {
+        let sides = || SegmentIndex::new(outline.iter().flat_map(|ring| sides(ring)).collect(), width);
+        !whole.get_or_insert_with(sides).is_within(place, half - SLACK * width)
+    };
+    outline.iter().enumerate().any(|(number, ring)| {
+        let inward = if (signed_area(ring) > 0.0) == (number == 0) { half } else { -half };
+        sides(ring).any(|side| {
+            let inward = inward * (side.end - side.start).normalize_or_zero().perp();
+            let count = (side.length() / (STEP * width)).ceil().clamp(1.0, 1e6);
+            (0..count as usize).any(|k| {
+                let place = side.point_at((k as f64 + 0.5) / count) + inward;
+                !wall.is_within(place, MISSING * width) && fits(place)
+            })
+        })
+    })
+}
+
+/// The region with its slender parts made wide enough for two lanes, and joined where they follow one another; and these strips.
+///
+/// # Complexity
+/// That of a few offsets of the region.
+pub(crate) fn thickened(region: &MultiPolygon<f64>, width: f64, chord: f64) -> [MultiPolygon<f64>; 2] {
+    let stout = mitred_dilation(&inset(region, SLENDER * width, chord), SLENDER * width);
+    let mut slender = region.difference(&stout);
+    slender.0.retain(|part| perimeter(&ring_points(part.exterior())) >= LEAST * width);
+    if slender.0.is_empty() {
+        return [region.clone(), slender];
+    }
+    let closed = inset(&dilation(&slender, GAP * width, chord), GAP * width, chord);
+    let strips = dilation(&closed.union(&slender), GROWTH * width, chord);
+    [region.union(&strips), strips]
+}
