@@ -163,9 +163,8 @@ mod tests {
     fn inner_widths(pitch: f64) -> Vec<f64> {
         let strand = roomy(comb(pitch), 1.0).unwrap();
         let long = strand.steps().filter(|step| step.role == Role::Fill && step.length() > 20.0);
-        let mut widths: Vec<f64> = long.map(|step| step.width).collect();
-        (widths.remove(0), widths.pop());
-        widths
+        let widths: Vec<f64> = long.map(|step| step.width).collect();
+        widths[1..widths.len() - 1].to_vec()
     }
 
     #[test]
