@@ -1,5 +1,5 @@
 use argil::gcode::{GcodeSettings, read_gcode, write_gcode};
-use argil::{Planner, Settings};
+use argil::{Infill, Planner, Settings, Skirt};
 use argil_audit::{AuditSettings, audit};
 use argil_models::{Bounds, DVec3, Field, mesh_of};
 
@@ -14,8 +14,7 @@ const TOP: f64 = 10.0;
 /// Plans a small solid: a typed error, or a strand that the audit finds sound.
 pub fn pipeline(bytes: &[u8]) {
     let mut draw = Draw::new(bytes);
-    let settings =
-        Settings { walls: 1 + draw.below(8) / 6, ..Settings::for_width([2.0, 2.5, 3.0][draw.below(3)]) };
+    let settings = settings(&mut draw);
     let mut body = Field::empty();
     for _ in 0..4 {
         if draw.is_empty() {
@@ -39,6 +38,8 @@ pub fn pipeline(bytes: &[u8]) {
     let wanted = AuditSettings {
         layer_height: settings.layer_height,
         walls: settings.walls,
+        floor: settings.floor,
+        skin: settings.skin > 0,
         across: criterion.across,
         along: criterion.along,
         ..AuditSettings::for_width(settings.width)
@@ -46,6 +47,22 @@ pub fn pipeline(bytes: &[u8]) {
     let report = audit(&read_gcode(&text), &mesh, &wanted).expect("a plan can be measured");
     // What the slicer said it could not print as it is, the audit misses too; without such a loss nothing may be amiss.
     assert!(!plan.losses.is_empty() || report.is_sound(), "{report}");
+}
+
+/// One wall most often, and half of the time nothing inside of it.
+fn settings(draw: &mut Draw<'_>) -> Settings {
+    let walls = [1, 1, 1, 1, 1, 1, 2, 3][draw.below(8)];
+    let width = [2.0, 2.5, 3.0][draw.below(3)];
+    let floor = draw.below(6).saturating_sub(2);
+    let skin = draw.below(5).saturating_sub(2);
+    let spiral = draw.flag();
+    let skirt = [None, None, Some(Skirt::default())][draw.below(3)];
+    let infill = match draw.below(6) {
+        0..=2 => Infill::None,
+        3 => Infill::Auto,
+        sparse => Infill::Ratio([0.1, 0.3][sparse - 4]),
+    };
+    Settings { walls, floor, skin, spiral, skirt, infill, ..Settings::for_width(width) }
 }
 
 /// A ball, a rod, a cylinder, a box, a tube or a ring somewhere in the box.

@@ -236,6 +236,9 @@ pub(crate) struct PlanArgs {
     /// How floors and skins are filled.
     #[arg(long, value_enum, default_value_t = Pattern::Rings)]
     pub(crate) fill_pattern: Pattern,
+    /// Lay all fill with the same flow. If not, its beads are as wide as there is room between their neighbours, from 0.75 to 1.33 of the width.
+    #[arg(long)]
+    pub(crate) even_flow: bool,
     /// Fill the inside of the walls sparsely, with this share of clay; `auto`: only below what `--skin` fills, as dense and as far down as
     /// that needs, and only if the strand gets shorter than with support from the walls.
     #[arg(long, value_name = "RATIO|auto", value_parser = infill, allow_negative_numbers = true)]

@@ -38,6 +38,7 @@ pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
         skirt,
         spirals: args.fill_pattern == Pattern::Spirals,
         infill: args.infill.unwrap_or_default(),
+        even_flow: args.even_flow,
         ..input::settings(&args.bead, &profiles)?
     };
     settings.check().map_err(Failure::option)?;

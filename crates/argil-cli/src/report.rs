@@ -159,6 +159,7 @@ pub(crate) fn summary(plan: &Plan) -> String {
         if sparse > 0.0 {
             text.push_str(&format!(", {:.2} m of it infill", sparse / 1e3));
         }
+        text.push_str(&format!(", its beads {:.2} mm wide in the mean", mean_fill_width(plan)));
         let bare = plan.layers.iter().map(|layer| layer.widest_bare).fold(0.0, f64::max);
         if bare > 0.0 {
             text.push_str(&format!("; widest place in it without a bead {bare:.2} mm"));
@@ -243,6 +244,14 @@ pub(crate) fn skirt_remark(settings: &Settings, plan: &Plan) -> Option<String> {
     (laid.turns < asked.turns || nearer).then(|| {
         format!("the bed has room for {} turns of skirt, {:.1} mm from the part", laid.turns, laid.distance)
     })
+}
+
+/// Mean width of the beads of fill over their length, mm.
+fn mean_fill_width(plan: &Plan) -> f64 {
+    let fill = plan.strand.steps().filter(|step| step.role == Role::Fill);
+    let [area, length] = fill
+        .fold([0.0; 2], |[area, length], step| [area + step.length() * step.width, length + step.length()]);
+    if length > 0.0 { area / length } else { 0.0 }
 }
 
 /// Length of infill, mm.

@@ -105,8 +105,7 @@ impl<'p, 'f> Pen<'p, 'f> {
     /// is then owed to the next move. A cycle's ends must be met (`exactly`), so that it stays closed.
     pub(crate) fn lay(&mut self, step: &Step, exactly: bool) -> fmt::Result {
         let (e_grid, settings) = (self.gcode.e_grid, self.gcode.settings);
-        let layer = &self.gcode.strand.layers()[step.layer];
-        self.due += step.length() * settings.bead.area(layer.width, step.height) / settings.paste_per_e();
+        self.due += step.length() * settings.bead.area(step.width, step.height) / settings.paste_per_e();
         let to = self.on_grid(step.to.to_array());
         let owed = e_grid.step(self.due).unwrap_or(self.paid) - self.paid;
         let unpaid = owed < 1 && !matches!(settings.extrusion, Extrusion::Constant { .. });

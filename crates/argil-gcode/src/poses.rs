@@ -61,12 +61,12 @@ impl fmt::Display for Poses<'_> {
         writeln!(f, "n,layer,role,x_mm,y_mm,z_mm,ax,ay,az,speed_mm_s,flow_mm3_s,width_mm,height_mm")?;
         for (k, step) in self.strand.steps().enumerate() {
             let layer = &self.strand.layers()[step.layer];
-            let bead = (layer.width, step.height);
+            let bead = (step.width, step.height);
             if k == 0 {
                 row(f, 0, layer.index, "", step.from.to_array(), [self.settings.approach_feed, 0.0], bead)?;
             }
             let speed = self.settings.speed_of(self.strand, &step);
-            let flow = speed * self.settings.bead.area(layer.width, step.height);
+            let flow = speed * self.settings.bead.area(step.width, step.height);
             row(f, k + 1, layer.index, step.role.name(), step.to.to_array(), [speed, flow], bead)?;
         }
         Ok(())

@@ -210,14 +210,14 @@ impl GcodeSettings {
         }
     }
 
-    /// Speed on a step of the strand, mm/s: that of its layer, or, where a constant rate of paste meets a bead of another height than
-    /// its layer's, what that bead asks for. Beads thinner than a quarter of the layer are laid as if they were that thick, since
+    /// Speed on a step of the strand, mm/s: that of its layer, or, where a constant rate of paste meets a bead of another height or width
+    /// than its layer's, what that bead asks for. Beads thinner than a quarter of the layer are laid as if they were that thick, since
     /// their speed would have no limit.
     #[must_use]
     pub fn speed_of(&self, strand: &Strand, step: &Step) -> f64 {
         match (self.extrusion, strand.layers().get(step.layer)) {
             (Extrusion::Constant { rate }, Some(laid)) => {
-                rate / self.bead.area(laid.width, step.height.max(THINNEST * laid.height))
+                rate / self.bead.area(step.width, step.height.max(THINNEST * laid.height))
             }
             _ => self.speed(strand, step.layer),
         }

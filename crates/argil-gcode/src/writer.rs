@@ -174,8 +174,10 @@ impl fmt::Display for Gcode<'_> {
 
 /// Decimals of E with which one grid step of the thinnest bead is still worth something.
 fn e_decimals(strand: &Strand, settings: &GcodeSettings) -> u8 {
-    let area = |layer: &argil_strand::StrandLayer| settings.bead.area(layer.width, layer.height);
-    let thinnest = strand.layers().iter().map(area).fold(f64::INFINITY, f64::min);
+    let area = |(k, layer): (usize, &argil_strand::StrandLayer)| {
+        settings.bead.area(strand.widths(k).iter().copied().fold(layer.width, f64::min), layer.height)
+    };
+    let thinnest = strand.layers().iter().enumerate().map(area).fold(f64::INFINITY, f64::min);
     let least = thinnest * 10f64.powi(-i32::from(settings.decimals)) / settings.paste_per_e();
     (E_DECIMALS..9).find(|&decimals| least * 10f64.powi(i32::from(decimals)) >= UNITS_PER_STEP).unwrap_or(9)
 }

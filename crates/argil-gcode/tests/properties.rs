@@ -492,6 +492,24 @@ fn a_constant_rate_is_spread_along_what_rises() {
 }
 
 #[test]
+fn paste_follows_the_width_of_each_bead() {
+    let whole = square(8.0);
+    let widths = whole.layers().iter().map(|layer| vec![0.8 * layer.width; layer.moves.len()]).collect();
+    let slender = whole.clone().of_widths(widths).unwrap();
+    let settings = GcodeSettings { bead: BeadShape::Box, ..GcodeSettings::default() };
+    let pushed = |strand: &Strand| {
+        let file = read_gcode(&write_gcode(strand, &settings).unwrap());
+        file.strand_moves().iter().map(|step| step.extruded).sum::<f64>()
+    };
+    assert!((pushed(&slender) / pushed(&whole) - 0.8).abs() < 1e-3);
+    let constant = GcodeSettings { extrusion: Extrusion::Constant { rate: 20.0 }, ..settings };
+    for (thin, wide) in slender.steps().zip(whole.steps()) {
+        let ratio = constant.speed_of(&slender, &thin) / constant.speed_of(&whole, &wide);
+        assert!((ratio - 1.25).abs() < 1e-9);
+    }
+}
+
+#[test]
 fn the_nozzle_is_wiped_along_what_lies_there() {
     let wiped =
         |wipe| write_gcode(&square(8.0), &GcodeSettings { wipe, ..GcodeSettings::default() }).unwrap();

@@ -82,6 +82,16 @@ pub enum StrandError {
         /// How many there should be; 0 for a layer that lies level.
         wanted: usize,
     },
+    /// The widths given are not one for each layer, or of a layer not one for each move.
+    #[error("layer {layer}: {given} widths are given where {wanted} are due")]
+    WidthCount {
+        /// Position of the layer, counted from the lowest.
+        layer: usize,
+        /// How many there are.
+        given: usize,
+        /// How many there should be.
+        wanted: usize,
+    },
     /// The strand falls.
     #[error("layer {layer}: the strand falls from {from} mm to {to} mm")]
     Falling {

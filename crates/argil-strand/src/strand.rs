@@ -39,7 +39,7 @@ pub struct StrandLayer {
     pub z: f64,
     /// Height of the bead, mm; of a layer that rises, what it would be if it lay level.
     pub height: f64,
-    /// Width of the bead, mm.
+    /// Width of the bead, mm, but for moves to which [another](Strand::of_widths) is given.
     pub width: f64,
     /// The stretches in the order of laying. The lowest layer starts at [`Strand::start`], perhaps with a [`Role::Skirt`] that leads
     /// to its cycle; every other one begins with a [`Role::Seam`] step that rises from the end of the layer below.
@@ -55,7 +55,7 @@ pub struct StrandLayer {
 /// ```
 /// use argil_strand::{DVec3, Role, Step};
 /// let [from, to] = [0.5, 1.0].map(|z| DVec3::new(0.0, 0.0, z));
-/// let step = Step { layer: 1, from, to, role: Role::Seam, height: 0.5 };
+/// let step = Step { layer: 1, from, to, role: Role::Seam, width: 1.5, height: 0.5 };
 /// assert_eq!(step.length(), 0.5); // straight up
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,6 +69,8 @@ pub struct Step {
     pub to: DVec3,
     /// What it is laid for.
     pub role: Role,
+    /// Width of the bead, mm.
+    pub width: f64,
     /// Height of the bead, mm.
     pub height: f64,
 }
@@ -93,6 +95,9 @@ pub struct Strand {
     /// For each layer one for each of its moves, or none if it lies level; empty where all do.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Vec::is_empty"))]
     rises: Vec<Vec<Rise>>,
+    /// For each layer one for each of its moves, mm, or none if all are as wide as the layer says; empty where all layers are so.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Vec::is_empty"))]
+    widths: Vec<Vec<f64>>,
 }
 
 impl Strand {
@@ -137,7 +142,7 @@ impl Strand {
             }
             check_cycle(k, start, layer)?;
         }
-        Ok(Self { start, layers, rises: Vec::new() })
+        Ok(Self { start, layers, rises: Vec::new(), widths: Vec::new() })
     }
 
     /// The same strand with some of its layers rising along their cycles, as in a spiral: for each layer the z and the bead's height of
@@ -176,6 +181,40 @@ impl Strand {
     #[must_use]
     pub fn rises(&self, layer: usize) -> &[Rise] {
         self.rises.get(layer).map_or(&[], Vec::as_slice)
+    }
+
+    /// The same strand with beads of other widths than their layer's: for each layer the width in mm of each of its moves, or nothing
+    /// where all are as wide as the layer says. What was given before is forgotten.
+    ///
+    /// # Errors
+    /// [`StrandError::WidthCount`] where there are too few or too many; [`StrandError::NoBead`] for one that is not positive;
+    /// [`StrandError::NotFinite`].
+    ///
+    /// # Complexity
+    /// O(n) in the number of moves.
+    ///
+    /// # Example
+    /// ```
+    /// # use argil_strand::{DVec2, Move, Role, Strand, StrandLayer};
+    /// # let there = Move { to: DVec2::new(4.0, 0.0), role: Role::Fill };
+    /// # let back = Move { to: DVec2::ZERO, role: Role::Fill };
+    /// # let floor = StrandLayer { index: 0, z: 0.5, height: 0.5, width: 1.5, moves: vec![there, back], supports: vec![] };
+    /// let whole = Strand::new(DVec2::ZERO, vec![floor])?;
+    /// let slender = whole.clone().of_widths(vec![vec![1.5, 1.2]])?;
+    /// assert_eq!(slender.steps().map(|step| step.width).collect::<Vec<_>>(), [1.5, 1.2]);
+    /// assert!(slender.volume() < whole.volume());
+    /// # Ok::<(), argil_strand::StrandError>(())
+    /// ```
+    pub fn of_widths(self, widths: Vec<Vec<f64>>) -> Result<Self, StrandError> {
+        check_widths(&self.layers, &widths)?;
+        let widths = if widths.iter().all(Vec::is_empty) { Vec::new() } else { widths };
+        Ok(Self { widths, ..self })
+    }
+
+    /// The widths of a layer's beads, mm: one for each of its moves. Empty where all are as wide as the layer says, and above the uppermost.
+    #[must_use]
+    pub fn widths(&self, layer: usize) -> &[f64] {
+        self.widths.get(layer).map_or(&[], Vec::as_slice)
     }
 
     /// Where the strand begins, mm: the first point of the lowest layer.
@@ -251,12 +290,14 @@ impl Strand {
                 let level = Rise { z: layer.z, height: layer.height };
                 let rises = self.rises(k);
                 let lies = move |n: usize| rises.get(n).copied().unwrap_or(level);
-                layer.moves.iter().enumerate().map(move |(n, to)| (k, lies(n), to))
+                let widths = self.widths(k);
+                let wide = move |n: usize| widths.get(n).copied().unwrap_or(layer.width);
+                layer.moves.iter().enumerate().map(move |(n, to)| (k, lies(n), wide(n), to))
             })
-            .map(move |(layer, Rise { z, height }, step)| {
+            .map(move |(layer, Rise { z, height }, width, step)| {
                 let from = at;
                 at = step.to.extend(z);
-                Step { layer, from, to: at, role: step.role, height }
+                Step { layer, from, to: at, role: step.role, width, height }
             })
     }
 
@@ -289,7 +330,7 @@ impl Strand {
     /// Paste in the strand, mm³, with beads of the given shape.
     #[must_use]
     pub fn volume_as(&self, shape: BeadShape) -> f64 {
-        self.steps().map(|step| step.length() * shape.area(self.layers[step.layer].width, step.height)).sum()
+        self.steps().map(|step| step.length() * shape.area(step.width, step.height)).sum()
     }
 
     /// What each layer holds, lowest first.
@@ -313,8 +354,7 @@ impl Strand {
         for step in self.steps() {
             let summary = &mut summaries[step.layer];
             summary.lengths.add(step.role, step.length());
-            summary.volume +=
-                step.length() * BeadShape::Rounded.area(self.layers[step.layer].width, step.height);
+            summary.volume += step.length() * BeadShape::Rounded.area(step.width, step.height);
         }
         summaries
     }
@@ -396,6 +436,27 @@ fn check_rises(layers: &[StrandLayer], rises: &[Vec<Rise>]) -> Result<(), Strand
     Ok(())
 }
 
+/// A width for each move of a layer that has any, all of them positive.
+fn check_widths(layers: &[StrandLayer], widths: &[Vec<f64>]) -> Result<(), StrandError> {
+    if !widths.is_empty() && widths.len() != layers.len() {
+        let layer = widths.len().min(layers.len());
+        return Err(StrandError::WidthCount { layer, given: widths.len(), wanted: layers.len() });
+    }
+    for (k, (layer, widths)) in layers.iter().zip(widths).enumerate() {
+        let wanted = layer.moves.len();
+        if !widths.is_empty() && widths.len() != wanted {
+            return Err(StrandError::WidthCount { layer: k, given: widths.len(), wanted });
+        }
+        if !widths.iter().all(|width| width.is_finite()) {
+            return Err(StrandError::NotFinite { layer: k, what: "the width of a bead" });
+        }
+        if let Some(&width) = widths.iter().find(|&&width| width <= 0.0) {
+            return Err(StrandError::NoBead { layer: k, width, height: layer.height });
+        }
+    }
+    Ok(())
+}
+
 /// What a file may hold before the strand's shape is checked.
 #[cfg(feature = "serde")]
 #[derive(serde::Deserialize)]
@@ -404,6 +465,8 @@ struct Unchecked {
     layers: Vec<StrandLayer>,
     #[serde(default)]
     rises: Vec<Vec<Rise>>,
+    #[serde(default)]
+    widths: Vec<Vec<f64>>,
 }
 
 #[cfg(feature = "serde")]
@@ -411,6 +474,6 @@ impl TryFrom<Unchecked> for Strand {
     type Error = StrandError;
 
     fn try_from(unchecked: Unchecked) -> Result<Self, StrandError> {
-        Strand::new(unchecked.start, unchecked.layers)?.risen(unchecked.rises)
+        Strand::new(unchecked.start, unchecked.layers)?.risen(unchecked.rises)?.of_widths(unchecked.widths)
     }
 }

@@ -128,6 +128,29 @@ proptest! {
     }
 
     #[test]
+    fn widths_are_one_for_each_move((start, layers) in strands(), pick in any::<prop::sample::Index>()) {
+        let strand = Strand::new(start, layers.clone()).unwrap();
+        let half: Vec<Vec<f64>> = layers.iter().map(|l| vec![0.5 * l.width; l.moves.len()]).collect();
+        let slender = strand.clone().of_widths(half.clone()).unwrap();
+        prop_assert!(slender.steps().all(|step| step.width == 0.5 * layers[step.layer].width));
+        prop_assert!(slender.volume_as(BeadShape::Box) <= 0.5 * strand.volume_as(BeadShape::Box) * (1.0 + 1e-12));
+        prop_assert_eq!(slender.clone().of_widths(vec![]).unwrap(), strand.clone());
+        let k = pick.index(layers.len());
+        let refused = |spoil: &dyn Fn(&mut Vec<Vec<f64>>)| {
+            let mut widths = half.clone();
+            spoil(&mut widths);
+            strand.clone().of_widths(widths).err()
+        };
+        let too_many = matches!(
+            refused(&|w| w[k].push(1.0)), Some(StrandError::WidthCount { layer, .. }) if layer == k
+        );
+        let no_layer = matches!(refused(&|w| w.push(vec![])), Some(StrandError::WidthCount { .. }));
+        let none = matches!(refused(&|w| w[k][0] = 0.0), Some(StrandError::NoBead { layer, .. }) if layer == k);
+        let unknown = matches!(refused(&|w| w[k][0] = f64::NAN), Some(StrandError::NotFinite { .. }));
+        prop_assert!(too_many && no_layer && none && unknown);
+    }
+
+    #[test]
     fn a_rise_that_falls_or_does_not_fit_is_refused((start, layers) in strands(), pick in any::<prop::sample::Index>()) {
         let strand = Strand::new(start, layers.clone()).unwrap();
         let refused = |spoil: &dyn Fn(&mut Vec<Vec<Rise>>)| {

@@ -31,6 +31,7 @@ mod descent;
 mod document;
 mod ends;
 mod error;
+mod flow;
 mod foothold;
 mod hold;
 pub mod literal;

@@ -7,6 +7,7 @@ use argil_slice::{Layer, outer_walls};
 
 use crate::climb::climbed;
 use crate::descent::{Descent, timed, wall_curves};
+use crate::flow::roomy;
 use crate::model::{LANES, model};
 use crate::stages::{
     BestChain, ElasticCurve, Excursions, FewestPoints, PlaneSlices, PulledTaut, Route, Safeguard, Seam,
@@ -275,8 +276,9 @@ impl<S: Slice, G: Safeguard, U: Support, R: Route, E: Smooth, T: Tauten, C: Seam
         for (report, lie) in reports.iter_mut().zip(&climbed.lies) {
             (report.climb, report.level_because, report.bead_heights) = (lie.climb, lie.cause, lie.beads);
         }
+        let strand = if settings.even_flow { climbed.strand } else { roomy(climbed.strand, settings.width)? };
         Ok(Plan {
-            strand: climbed.strand,
+            strand,
             layers: reports,
             losses: layers.iter().flat_map(|layer| layer.losses.iter().cloned()).collect(),
             skirt: climbed.skirt,

@@ -123,6 +123,9 @@ pub struct Settings {
     /// Whether rings of floors and skins that lie in each other without a branch become double spirals, which hardly turn back.
     #[cfg_attr(feature = "serde", serde(default))]
     pub spirals: bool,
+    /// Whether beads of fill are all w wide. If not, they are as wide as there is room for between their neighbours, from 0.75 w to 1.33 w.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub even_flow: bool,
     /// What is laid inside of the walls.
     #[cfg_attr(feature = "serde", serde(default))]
     pub infill: Infill,
@@ -187,6 +190,7 @@ impl Settings {
             spiral: false,
             skirt: None,
             spirals: false,
+            even_flow: false,
             infill: Infill::None,
             surface: false,
             material: Material::default(),

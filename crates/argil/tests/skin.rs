@@ -48,6 +48,25 @@ fn a_cup_gets_a_floor_that_holds_water() {
 }
 
 #[test]
+fn a_floor_is_laid_with_as_much_clay_as_it_has_room_for() {
+    let room_aware = closed(1.5, 3, 0);
+    let even = Settings { even_flow: true, ..room_aware };
+    let layers = Planner::default().slices(&sample("cup"), &room_aware).unwrap();
+    let [fitting, too_much] = [room_aware, even].map(|settings| planned("cup", &settings));
+    for (position, layer) in layers.iter().take(3).enumerate() {
+        let wall = ClosedCurve::new(layer.walls[0].points.clone()).unwrap();
+        let room = wall.signed_area().abs() - 0.5 * 1.5 * wall.length();
+        let share = |plan: &Plan| {
+            let own = plan.strand.steps().filter(|step| step.layer == position && step.role == Role::Fill);
+            own.map(|step| step.length() * step.width).sum::<f64>() / room
+        };
+        let (fits, exceeds) = (share(&fitting), share(&too_much));
+        assert!((0.95..1.03).contains(&fits) && exceeds > 1.15, "layer {position}: {fits:.3}, {exceeds:.3}");
+    }
+    assert!(too_much.strand.steps().all(|step| step.width == 1.5));
+}
+
+#[test]
 fn a_table_is_closed_above_and_below() {
     let plan = planned("table", &closed(2.5, 0, 2));
     let filled: Vec<usize> = plan.layers.iter().filter(|l| l.fill_length > 0.0).map(|l| l.index).collect();

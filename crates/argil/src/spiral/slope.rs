@@ -15,6 +15,13 @@ const BEAD: [f64; 2] = [0.55, 1.35];
 /// The steepest rise: one turn within so many w.
 const STEEPEST: f64 = 3.0;
 
+/// What lies farther down than this, in turns, holds nothing: 1.6 layer heights where nine layers share one more.
+const DEEPEST: f64 = 1.44;
+
+/// It is looked for this often along the path, in w, and so often on one stretch at most.
+const SAMPLE: f64 = 0.1;
+const MOST_SAMPLES: f64 = 64.0;
+
 /// What rounding may take from the room between the lowest and the highest that a point may lie.
 const NO_ROOM: f64 = 1e-9;
 
@@ -51,7 +58,7 @@ impl Slope<'_> {
             tops[k].filter(|_| !self.is_seam(k)).map(|top| [top + thin, top + thick])
         };
         let all: Vec<Option<[f64; 2]>> = (0..even.len()).map(bounds).collect();
-        if let Some(levels) = self.held_between(&even, &all) {
+        if let Some(levels) = self.held_between(&even, &all).filter(|levels| self.is_held(under, levels)) {
             return Ok(levels);
         }
         // Without those that the even rise misses for a short way only.
@@ -71,7 +78,32 @@ impl Slope<'_> {
         let misses = |run: &Range<usize>| run.clone().any(|k| tops[k].is_some());
         let sound =
             self.runs(is_loose).iter().all(|run| !misses(run) || self.way(run) <= self.criterion.along);
-        if sound { Ok(levels) } else { Err(LevelCause::Order) }
+        if sound && self.is_held(under, &levels) { Ok(levels) } else { Err(LevelCause::Order) }
+    }
+
+    /// Whether what lies too deep to hold anything, with what lies over nothing beside it, is nowhere longer than a bridge may be. Near
+    /// the ends no height is limited, and what is below there may lie two turns down.
+    fn is_held(&self, under: &Under, levels: &[f64]) -> bool {
+        let (mut way, mut is_deep) = (0.0, false);
+        for (k, stretch) in self.track.stretches().enumerate() {
+            let length = stretch.length();
+            let count = (length / (SAMPLE * self.width)).ceil().clamp(1.0, MOST_SAMPLES);
+            for n in 0..count as usize {
+                let share = (n as f64 + 0.5) / count;
+                let level = levels[k] + (levels[k + 1] - levels[k]) * share;
+                let depth = self.top(under, stretch.point_at(share)).map(|top| level - top);
+                if depth.is_some_and(|depth| depth <= DEEPEST) {
+                    (way, is_deep) = (0.0, false);
+                    continue;
+                }
+                way += length / count;
+                is_deep |= depth.is_some();
+                if is_deep && way > self.criterion.along {
+                    return false;
+                }
+            }
+        }
+        true
     }
 
     fn is_seam(&self, k: usize) -> bool {
