@@ -365,7 +365,7 @@ impl Audit<'_> {
         for (at, length) in contact.stretches {
             self.find(FindingKind::Contact, number, Some(at), length);
         }
-        let stride = (t.outline_step / step).round_ties_even().max(1.0) as usize;
+        let stride = crowding::stride(t.outline_step / step);
         self.tally.crowded += crowding::crowded(pieces, &contact.apart, width, stride);
 
         let passages = passage::passages(pieces, t.passage);

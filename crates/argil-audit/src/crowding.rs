@@ -3,6 +3,15 @@
 use crate::strand::Piece;
 use argil_curve::DVec2;
 
+/// A half is one also where rounding makes it more or less by so much.
+const HALF: f64 = 1e-9;
+
+/// Every which piece looks for its neighbours if there are so many pieces to a step between strands. Halves are rounded down: with the
+/// default settings it is always one, two and a half, which may not come out as two or three by the last bit of the width.
+pub(crate) fn stride(pieces_a_step: f64) -> usize {
+    (pieces_a_step - HALF).round().max(1.0) as usize
+}
+
 /// Length of bead, in mm, that overlaps another stretch of the same path, apart from roots and where both are
 /// wall.
 ///
@@ -70,5 +79,22 @@ impl Places {
                 }
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::AuditSettings;
+    use crate::settings::Tolerance;
+
+    #[test]
+    fn the_stride_is_the_same_for_every_width() {
+        for k in 1..2000 {
+            let settings = AuditSettings::for_width(0.013 * f64::from(k));
+            let step = Tolerance::for_width(settings.width).outline_step;
+            assert_eq!(stride(step / settings.step), 2, "{}", settings.width);
+        }
+        assert_eq!([0.0, 0.4, 1.6, 3.0, f64::INFINITY].map(stride), [1, 1, 2, 3, usize::MAX]);
     }
 }

@@ -18,6 +18,7 @@ mod limits;
 mod list_command;
 mod machine;
 mod machine_args;
+mod missing;
 mod output;
 mod plan_command;
 mod preview_page;

@@ -21,7 +21,7 @@ use crate::machine::Beyond;
 use crate::preview_page::preview_page;
 use crate::profiles::Profiles;
 use crate::progress::{PlanBar, Waiting};
-use crate::report::{PlanReport, cleaning, is_finding, skirt_remark, summary};
+use crate::report::{PlanReport, cleaning, missing, skirt_remark, summary};
 use crate::{input, machine, output};
 
 /// Longest side of the overview picture, pixels.
@@ -90,7 +90,7 @@ pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
 
     skirt_remark(&settings, &plan).iter().for_each(|remark| eprintln!("note: {remark}"));
     machine::remarks(&profiles, &args.job(), &plan.strand).iter().for_each(|remark| eprintln!("{remark}"));
-    Ok(verdict(args, &plan, audit.as_ref()))
+    Ok(verdict(args, &plan, settings.width, audit.as_ref()))
 }
 
 /// Refuses what reaches beyond the printer, unless that is wanted.
@@ -111,11 +111,13 @@ fn refuse_defects(name: &str, repairs: &Repairs) -> Result<(), Failure> {
 }
 
 /// Says what was planned and found; the exit status tells whether there are findings.
-fn verdict(args: &PlanArgs, plan: &Plan, audit: Option<&Report>) -> ExitCode {
+fn verdict(args: &PlanArgs, plan: &Plan, width: f64, audit: Option<&Report>) -> ExitCode {
     if !args.quiet {
-        eprintln!("{}", summary(plan));
+        eprintln!("{}", summary(plan, width));
     }
-    let mut findings = plan.losses.iter().any(is_finding);
+    let missing = missing(plan, width);
+    missing.iter().for_each(|line| eprintln!("{line}"));
+    let mut findings = !missing.is_empty();
     if let Some(report) = audit {
         findings |= !report.is_sound();
         if !args.quiet {

@@ -7,7 +7,7 @@ use argil::{Plan, Settings};
 use argil_audit::{ContactPlace, FindingKind, Report};
 use argil_preview::{PageMark, PageStyle, page_html};
 
-use crate::report::is_finding;
+use crate::missing::findings;
 
 /// The page of a plan, with the findings of its audit and the losses of its slicing.
 pub(crate) fn preview_page(
@@ -24,10 +24,12 @@ pub(crate) fn preview_page(
         let findings = report.findings.iter().filter(in_ledger).map(|f| finding(f, sound));
         findings.chain(report.contacts.iter().map(contact))
     });
+    let missing = findings(&plan.losses, settings.width);
+    let lost = plan.losses.iter().zip(missing).map(|(lost, missing)| loss(lost, missing));
     let style = PageStyle {
         title: format!("{} – argil", short_name(model)),
         facts: facts(settings, plan, audit),
-        marks: found.chain(plan.losses.iter().map(loss)).collect(),
+        marks: found.chain(lost).collect(),
         speeds: [gcode.first_layer_feed, gcode.feed],
         ..PageStyle::default()
     };
@@ -102,7 +104,7 @@ fn finding(finding: &argil_audit::Finding, sound: bool) -> PageMark {
 }
 
 /// What of the model is not printed as it is.
-fn loss(loss: &Loss) -> PageMark {
+fn loss(loss: &Loss, fault: bool) -> PageMark {
     let (kind, measure, unit) = match *loss {
         Loss::OpenOutline { length, .. } => ("open outline left out", length, "mm"),
         Loss::ClosedGap { gap, .. } => ("gap in an outline closed", gap, "mm"),
@@ -112,14 +114,14 @@ fn loss(loss: &Loss) -> PageMark {
         Loss::Thin { area, .. } => ("thinner than a bead", area, "mm²"),
         Loss::Narrow { length, .. } => ("part thinner than a bead", length, "mm"),
         Loss::Vanished { area, .. } => ("too small to print", area, "mm²"),
-        Loss::Branch { area, .. } => ("branch thinner than a bead", area, "mm²"),
+        Loss::Branch { area, .. } => ("part not reached by a bead", area, "mm²"),
         Loss::OpenSheet { length, .. } => ("open section printed there and back", length, "mm"),
         Loss::Unsound { length, .. } => ("wall left out", length, "mm"),
         _ => ("other loss", 0.0, ""),
     };
     PageMark {
         kind: kind.to_owned(),
-        fault: is_finding(loss),
+        fault,
         layer: loss.layer(),
         last_layer: loss.layer(),
         at: Some([loss.at().x, loss.at().y].into()),

@@ -7,6 +7,7 @@ use argil::{Climb, InfillChoice, LayerReport, LevelCause, Plan, Settings, SkirtL
 use argil_audit::{ContactCause, Report};
 use serde::Serialize;
 
+use crate::missing::findings;
 use crate::shrinkage::Shrinkage;
 
 /// The report as it is written.
@@ -47,6 +48,8 @@ struct LossReport {
     layer: usize,
     at: [f64; 2],
     measure: f64,
+    /// Whether it is missing from the print, which the exit status tells.
+    finding: bool,
 }
 
 /// What was repaired before there was a mesh to plan.
@@ -86,6 +89,7 @@ impl<'a> PlanReport<'a> {
         audit: Option<&'a Report>,
     ) -> Self {
         let strand = &plan.strand;
+        let width = settings.width;
         Self {
             program: "argil",
             version: env!("CARGO_PKG_VERSION"),
@@ -108,13 +112,18 @@ impl<'a> PlanReport<'a> {
             skirt: plan.skirt,
             infill: plan.infill,
             per_layer: &plan.layers,
-            losses: plan.losses.iter().map(loss).collect(),
+            losses: losses(plan, width),
             audit,
         }
     }
 }
 
-fn loss(loss: &Loss) -> LossReport {
+/// What of the model is not printed as it is.
+fn losses(plan: &Plan, width: f64) -> Vec<LossReport> {
+    plan.losses.iter().zip(findings(&plan.losses, width)).map(|(lost, finding)| loss(lost, finding)).collect()
+}
+
+fn loss(loss: &Loss, finding: bool) -> LossReport {
     let (kind, measure) = match *loss {
         Loss::OpenOutline { length, .. } => ("open outline, mm left out", length),
         Loss::ClosedGap { gap, .. } => ("gap in an outline closed, mm wide", gap),
@@ -129,16 +138,11 @@ fn loss(loss: &Loss) -> LossReport {
         Loss::Unsound { length, .. } => ("wall left out, mm", length),
         _ => ("other", 0.0),
     };
-    LossReport { kind, layer: loss.layer(), at: [loss.at().x, loss.at().y], measure }
-}
-
-/// Whether a loss means that something is missing that a bead could have printed.
-pub(crate) fn is_finding(loss: &Loss) -> bool {
-    matches!(loss, Loss::OpenOutline { .. } | Loss::Unsound { .. })
+    LossReport { kind, layer: loss.layer(), at: [loss.at().x, loss.at().y], measure, finding }
 }
 
 /// The summary at the end of a plan.
-pub(crate) fn summary(plan: &Plan) -> String {
+pub(crate) fn summary(plan: &Plan, width: f64) -> String {
     let strand = &plan.strand;
     let fill = strand.length_of(Role::Fill);
     let model = strand.length_of(Role::Wall) + fill;
@@ -180,7 +184,7 @@ pub(crate) fn summary(plan: &Plan) -> String {
             told(without_mm)
         ));
     }
-    for (kind, count, first) in losses(plan) {
+    for (kind, count, first) in kinds(losses(plan, width).into_iter().filter(|loss| !loss.finding)) {
         text.push_str(&format!(
             "note: {count} places: {kind}, the first in layer {} at ({:.2}, {:.2})\n",
             first.layer, first.at[0], first.at[1]
@@ -280,10 +284,25 @@ pub(crate) fn cleaning(report: &Report) -> String {
     text
 }
 
+/// What is missing from the print, a line a kind, with the place where most of it is; nothing where all is there.
+pub(crate) fn missing(plan: &Plan, width: f64) -> Vec<String> {
+    let mut missing: Vec<LossReport> = losses(plan, width).into_iter().filter(|loss| loss.finding).collect();
+    missing.sort_by(|a, b| b.measure.total_cmp(&a.measure));
+    let line = |(kind, count, most): (String, usize, LossReport)| {
+        let [x, y] = most.at;
+        let unit = if most.kind.contains("mm²") { "mm²" } else { "mm" };
+        format!(
+            "missing: {count} places: {kind}, most of it {:.1} {unit} in layer {} at ({x:.2}, {y:.2})",
+            most.measure, most.layer
+        )
+    };
+    kinds(missing.into_iter()).into_iter().map(line).collect()
+}
+
 /// How many losses there are of each kind, and the first one.
-fn losses(plan: &Plan) -> Vec<(String, usize, LossReport)> {
+fn kinds(losses: impl Iterator<Item = LossReport>) -> Vec<(String, usize, LossReport)> {
     let mut kinds: Vec<(String, usize, LossReport)> = Vec::new();
-    for loss in plan.losses.iter().map(loss) {
+    for loss in losses {
         let name = loss.kind.split(',').next().unwrap_or_default();
         match kinds.iter_mut().find(|(kind, ..)| kind == name) {
             Some((_, count, _)) => *count += 1,

@@ -10,6 +10,7 @@ use serde_json::Value;
 
 const DONE: i32 = 0;
 const BAD_INPUT: i32 = 3;
+const FINDINGS: i32 = 4;
 
 type Triangle = [[f32; 3]; 3];
 
@@ -284,6 +285,27 @@ fn parts_without_volume() {
         assert_eq!(status, Some(BAD_INPUT), "{said}");
         assert!(said.contains("model.stl") && said.contains("no triangle"), "{said}");
     }
+}
+
+#[test]
+fn a_part_too_thin_for_any_wall() {
+    // A fin beside the block. In one layer less than w² of it is missing either way.
+    let with_fin = |length: f32| [block(), cuboid([30.0, 5.0, 0.0], [30.1, 5.0 + length, 4.0])].concat();
+    let (status, said, report) = planned("long-fin", &with_fin(30.0), &[]);
+    assert_eq!(status, Some(FINDINGS), "{said}");
+    assert!(said.contains("missing: 4 places: too small to print, most of it 3.0 mm² in layer "), "{said}");
+    let report = report.unwrap();
+    assert_eq!(report["audit"]["sound"], true);
+    let lost = losses(&report, "too small to print");
+    let is_fin =
+        |loss: &Value| loss["finding"] == true && (loss["at"][0].as_f64().unwrap() - 30.05).abs() < 0.06;
+    assert!(lost.len() == 4 && lost.iter().all(is_fin), "{lost:?}");
+
+    let (status, said, report) = planned("short-fin", &with_fin(10.0), &[]);
+    assert_eq!(status, Some(DONE), "{said}");
+    assert!(said.contains("note: 4 places: too small to print, the first in layer 0 at (30.0"), "{said}");
+    let lost = losses(&report.unwrap(), "too small to print");
+    assert!(lost.len() == 4 && lost.iter().all(|loss| loss["finding"] == false), "{lost:?}");
 }
 
 #[test]
