@@ -63,7 +63,7 @@ fn planned(name: &str, triangles: &[Triangle], extra: &[&str]) -> (Option<i32>, 
 
 /// The triangles are planned soundly to as much wall as `like`, and the repair is told in words and in the report; with
 /// `--strict` they are refused.
-fn is_repaired(name: &str, triangles: &[Triangle], like: &[Triangle], says: &str) {
+fn assert_repaired(name: &str, triangles: &[Triangle], like: &[Triangle], says: &str) {
     let (status, said, report) = planned(name, triangles, &[]);
     assert_eq!(status, Some(DONE), "{name}: {said}");
     assert!(said.contains(says), "{name}: no `{says}` in\n{said}");
@@ -91,7 +91,7 @@ fn block() -> Vec<Triangle> {
 fn a_triangle_that_is_missing() {
     let mut torn = block();
     torn.remove(4);
-    is_repaired("missing", &torn, &block(), "3 open edges, the first at (");
+    assert_repaired("missing", &torn, &block(), "3 open edges, the first at (");
     let (_, said, report) = planned("missing-again", &torn, &[]);
     assert!(said.contains("gap in an outline closed, the first in layer 0 at ("), "{said}");
     let losses = report.unwrap()["losses"].as_array().unwrap().clone();
@@ -101,7 +101,7 @@ fn a_triangle_that_is_missing() {
 
 #[test]
 fn a_base_that_is_open() {
-    is_repaired("open-base", &block()[2..], &block(), "4 open edges");
+    assert_repaired("open-base", &block()[2..], &block(), "4 open edges");
 }
 
 #[test]
@@ -110,15 +110,15 @@ fn triangles_wound_against_their_neighbours() {
     for k in [1, 6, 9] {
         mixed[k].swap(0, 1);
     }
-    is_repaired("turned", &mixed, &block(), "3 triangles turned over");
+    assert_repaired("turned", &mixed, &block(), "3 triangles turned over");
 }
 
 #[test]
 fn a_body_that_is_inside_out() {
-    is_repaired("inside-out", &flipped(&block()), &block(), "1 shells turned over");
+    assert_repaired("inside-out", &flipped(&block()), &block(), "1 shells turned over");
     let other = cuboid([10.0, 10.0, 0.0], [30.0, 30.0, 4.0]);
     let sound = [block(), other.clone()].concat();
-    is_repaired(
+    assert_repaired(
         "inside-out-overlapping",
         &[block(), flipped(&other)].concat(),
         &sound,
@@ -128,8 +128,8 @@ fn a_body_that_is_inside_out() {
 
 #[test]
 fn triangles_that_are_there_twice() {
-    is_repaired("twice", &[block(), block()].concat(), &block(), "12 duplicate triangles dropped");
-    is_repaired(
+    assert_repaired("twice", &[block(), block()].concat(), &block(), "12 duplicate triangles dropped");
+    assert_repaired(
         "both-sides",
         &[block(), flipped(&block())].concat(),
         &block(),
@@ -141,7 +141,7 @@ fn triangles_that_are_there_twice() {
 fn bodies_that_share_a_face_or_an_edge() {
     let beside = cuboid([20.0, 0.0, 0.0], [40.0, 20.0, 4.0]);
     let wide = cuboid([0.0; 3], [40.0, 20.0, 4.0]);
-    is_repaired("face", &[block(), beside].concat(), &wide, "2 faces between bodies dropped");
+    assert_repaired("face", &[block(), beside].concat(), &wide, "2 faces between bodies dropped");
     let diagonal = cuboid([20.0, 20.0, 0.0], [40.0, 40.0, 4.0]);
     let (status, said, _) = planned("edge", &[block(), diagonal].concat(), &[]);
     assert_eq!(status, Some(DONE), "{said}");
@@ -214,7 +214,7 @@ fn a_cavity_that_sticks_out_of_its_body_is_none() {
     let long: Vec<Triangle> =
         long.into_iter().filter(|side| !side.iter().all(|corner| corner[0] == 20.0)).collect();
     let sound = [block(), long.clone()].concat();
-    is_repaired("sticks-out", &[block(), flipped(&long)].concat(), &sound, "1 shells turned over");
+    assert_repaired("sticks-out", &[block(), flipped(&long)].concat(), &sound, "1 shells turned over");
 }
 
 #[test]
@@ -244,7 +244,7 @@ fn junctions_without_a_vertex() {
     let [a, b, c] = split.remove(4);
     let middle = [0, 1, 2].map(|k| (a[k] + b[k]) / 2.0);
     split.extend([[a, middle, c], [middle, b, c]]);
-    is_repaired("junction", &split, &block(), "open edges");
+    assert_repaired("junction", &split, &block(), "open edges");
     // The same along an upright edge, which every layer meets.
     let mut split = block();
     let side =
@@ -256,7 +256,7 @@ fn junctions_without_a_vertex() {
     let [a, b, c] = [0, 1, 2].map(|k| corners[(edge + k) % 3]);
     let middle = [0, 1, 2].map(|k| (a[k] + b[k]) / 2.0);
     split.extend([[a, middle, c], [middle, b, c]]);
-    is_repaired("upright-junction", &split, &block(), "open edges");
+    assert_repaired("upright-junction", &split, &block(), "open edges");
 }
 
 #[test]

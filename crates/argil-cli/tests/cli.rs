@@ -57,7 +57,7 @@ fn ends(folder: &Path, status: i32, arguments: &[&str]) -> Output {
 }
 
 /// Runs the program on input that will not do: its message must say what, and nothing may be written.
-fn fails(folder: &Path, status: i32, arguments: &[&str], says: &[&str]) {
+fn assert_fails(folder: &Path, status: i32, arguments: &[&str], says: &[&str]) {
     let before = names(folder);
     let output = ends(folder, status, arguments);
     let complaint = stderr(&output);
@@ -199,8 +199,18 @@ fn floors_and_skins_are_fill_of_the_same_strand() {
     let filled = layers.iter().filter(|layer| layer["fill_length"].as_f64().unwrap() > 0.0).count();
     assert!((2..layers.len()).contains(&filled), "{filled} layers");
     assert!(fs::read_to_string(folder.join("out.gcode")).unwrap().contains(";TYPE:Solid infill\n"));
-    fails(&folder, BAD_INPUT, &["plan", "sample:columns", "-o", "no.gcode", "--skin", "1001"], &["skin"]);
-    fails(&folder, USAGE, &["plan", "sample:columns", "-o", "no.gcode", "--floor", "some"], &["--floor"]);
+    assert_fails(
+        &folder,
+        BAD_INPUT,
+        &["plan", "sample:columns", "-o", "no.gcode", "--skin", "1001"],
+        &["skin"],
+    );
+    assert_fails(
+        &folder,
+        USAGE,
+        &["plan", "sample:columns", "-o", "no.gcode", "--floor", "some"],
+        &["--floor"],
+    );
 }
 
 #[test]
@@ -216,7 +226,7 @@ fn what_shrinks_is_planned_larger() {
     let report: Value = serde_json::from_slice(&fs::read(folder.join("out.json")).unwrap()).unwrap();
     assert_eq!(report["shrinkage"], serde_json::json!([10.0, 10.0, 20.0]));
     for wrong in ["95", "-1", "1,2", "much"] {
-        fails(
+        assert_fails(
             &folder,
             USAGE,
             &["plan", "sample:columns", "-o", "no.gcode", "--shrinkage", wrong],
@@ -266,7 +276,7 @@ fn the_same_bytes_every_time_and_for_any_number_of_threads() {
 fn wrong_usage() {
     let folder = folder("usage");
     let plan = |extra: &[&str], says: &[&str]| {
-        fails(&folder, USAGE, &[&["plan", "-o", "out.gcode"], extra].concat(), says);
+        assert_fails(&folder, USAGE, &[&["plan", "-o", "out.gcode"], extra].concat(), says);
     };
     plan(&["sample:columns", "--wings", "2"], &["--wings"]);
     plan(&["sample:columns", "--scale", "2", "--height", "9"], &["--scale", "--height"]);
@@ -275,10 +285,10 @@ fn wrong_usage() {
     plan(&["sample:columns", "--place", "left"], &["left", "--place"]);
     plan(&["sample:teapot"], &["teapot", "argil samples"]);
     plan(&[], &["MODEL"]);
-    fails(&folder, USAGE, &["plan", "sample:columns"], &["--output"]);
-    fails(&folder, USAGE, &["print"], &["print"]);
-    fails(&folder, USAGE, &[], &["Usage"]);
-    fails(&folder, USAGE, &["audit", "out.gcode"], &["--model"]);
+    assert_fails(&folder, USAGE, &["plan", "sample:columns"], &["--output"]);
+    assert_fails(&folder, USAGE, &["print"], &["print"]);
+    assert_fails(&folder, USAGE, &[], &["Usage"]);
+    assert_fails(&folder, USAGE, &["audit", "out.gcode"], &["--model"]);
 }
 
 #[test]
@@ -310,15 +320,15 @@ fn models_that_are_none() {
     ];
     for (name, bytes, reason) in &flawed {
         fs::write(folder.join(name), bytes).unwrap();
-        fails(
+        assert_fails(
             &folder,
             BAD_INPUT,
             &["plan", name, "-o", "out.gcode", "--report", "out.json"],
             &[name, reason],
         );
     }
-    fails(&folder, BAD_INPUT, &["plan", "missing.stl", "-o", "out.gcode"], &["missing.stl"]);
-    fails(&folder, BAD_INPUT, &["plan", ".", "-o", "out.gcode"], &["cannot read ."]);
+    assert_fails(&folder, BAD_INPUT, &["plan", "missing.stl", "-o", "out.gcode"], &["missing.stl"]);
+    assert_fails(&folder, BAD_INPUT, &["plan", ".", "-o", "out.gcode"], &["cannot read ."]);
 }
 
 #[test]
@@ -339,11 +349,16 @@ fn options_that_cannot_be() {
         ("--along", "-1.6"),
     ];
     for (option, value) in cases {
-        fails(&folder, BAD_INPUT, &["plan", "sample:columns", "-o", "out.gcode", option, value], &[option]);
+        assert_fails(
+            &folder,
+            BAD_INPUT,
+            &["plan", "sample:columns", "-o", "out.gcode", option, value],
+            &[option],
+        );
     }
     for (option, value) in [("--scale", "0"), ("--scale", "-1"), ("--height", "nan"), ("--height", "-5")] {
         let arguments = ["plan", "sample:columns", "-o", "out.gcode", option, value];
-        fails(&folder, BAD_INPUT, &arguments, &["sample:columns", "cannot scale"]);
+        assert_fails(&folder, BAD_INPUT, &arguments, &["sample:columns", "cannot scale"]);
     }
 }
 
@@ -351,7 +366,7 @@ fn options_that_cannot_be() {
 fn an_old_file_survives_a_failure() {
     let folder = folder("survives");
     fs::write(folder.join("out.gcode"), "what was there").unwrap();
-    fails(&folder, BAD_INPUT, &["plan", "missing.stl", "-o", "out.gcode"], &["missing.stl"]);
+    assert_fails(&folder, BAD_INPUT, &["plan", "missing.stl", "-o", "out.gcode"], &["missing.stl"]);
     assert_eq!(fs::read_to_string(folder.join("out.gcode")).unwrap(), "what was there");
 }
 
@@ -382,7 +397,7 @@ fn a_finished_file_takes_the_place_of_an_old_one_and_nothing_else() {
 fn models_beyond_the_limits_are_refused_before_the_work_begins() {
     let folder = folder("limits");
     let plan = |extra: &[&str], status: i32, says: &[&str]| {
-        fails(&folder, status, &[&["plan", "-o", "out.gcode"], extra].concat(), says);
+        assert_fails(&folder, status, &[&["plan", "-o", "out.gcode"], extra].concat(), says);
     };
     plan(&["sample:columns", "--memory", "0.001"], BAD_INPUT, &["sample:columns", "GiB", "--memory"]);
     plan(&["sample:columns", "--memory", "0.1", "--layer-height", "0.001"], BAD_INPUT, &["--memory"]);
@@ -400,9 +415,19 @@ fn models_beyond_the_limits_are_refused_before_the_work_begins() {
 #[test]
 fn places_that_cannot_be_written() {
     let folder = folder("unwritable");
-    fails(&folder, BAD_INPUT, &[&["plan", "-o", "none/out.gcode"], &QUICK[..]].concat(), &["none/out.gcode"]);
+    assert_fails(
+        &folder,
+        BAD_INPUT,
+        &[&["plan", "-o", "none/out.gcode"], &QUICK[..]].concat(),
+        &["none/out.gcode"],
+    );
     fs::create_dir(folder.join("taken")).unwrap();
-    fails(&folder, BAD_INPUT, &[&["plan", "-o", "taken"], &QUICK[..]].concat(), &["cannot write taken"]);
+    assert_fails(
+        &folder,
+        BAD_INPUT,
+        &[&["plan", "-o", "taken"], &QUICK[..]].concat(),
+        &["cannot write taken"],
+    );
 }
 
 #[test]
@@ -447,8 +472,8 @@ fn an_audit_of_what_is_no_print() {
     fs::write(folder.join("empty.gcode"), "").unwrap();
     fs::write(folder.join("noise.gcode"), [0, 159, 146, 150, 10, 71, 49, 32, 88]).unwrap();
     for file in ["empty.gcode", "noise.gcode", "missing.gcode"] {
-        fails(&folder, BAD_INPUT, &["audit", file, "--model", "sample:columns"], &[file]);
+        assert_fails(&folder, BAD_INPUT, &["audit", file, "--model", "sample:columns"], &[file]);
     }
-    fails(&folder, BAD_INPUT, &["audit", "empty.gcode", "--model", "missing.stl"], &["missing.stl"]);
-    fails(&folder, USAGE, &["audit", "empty.gcode", "--model", "sample:teapot"], &["teapot"]);
+    assert_fails(&folder, BAD_INPUT, &["audit", "empty.gcode", "--model", "missing.stl"], &["missing.stl"]);
+    assert_fails(&folder, USAGE, &["audit", "empty.gcode", "--model", "sample:teapot"], &["teapot"]);
 }

@@ -23,7 +23,7 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 /// Reads what it has written, alone and as a document.
-fn survives<T: Serialize + DeserializeOwned + PartialEq + Debug>(value: &T) {
+fn assert_survives<T: Serialize + DeserializeOwned + PartialEq + Debug>(value: &T) {
     let text = serde_json::to_string(value).unwrap();
     assert_eq!(&serde_json::from_str::<T>(&text).unwrap(), value, "{text}");
     if text.starts_with('{') {
@@ -34,8 +34,8 @@ fn survives<T: Serialize + DeserializeOwned + PartialEq + Debug>(value: &T) {
 }
 
 /// The same, and a field that nobody knows is refused in all depths that have names.
-fn survives_strictly<T: Serialize + DeserializeOwned + PartialEq + Debug>(settings: &T) {
-    survives(settings);
+fn assert_survives_strictly<T: Serialize + DeserializeOwned + PartialEq + Debug>(settings: &T) {
+    assert_survives(settings);
     let written = serde_json::to_value(settings).unwrap();
     let spoilt = |value: &Value| {
         let mut value = value.clone();
@@ -95,23 +95,23 @@ fn machine() -> impl Strategy<Value = GcodeSettings> {
 proptest! {
     #[test]
     fn settings_survive(settings in settings(), machine in machine(), seed: u64) {
-        survives_strictly(&settings);
-        survives_strictly(&settings.criterion());
-        survives_strictly(&settings.slicing());
-        survives_strictly(&settings.safeguarding());
-        survives_strictly(&settings.support());
-        survives_strictly(&RouteSettings { tour: TourOptions { seed, ..TourOptions::default() }, ..settings.routing() });
-        survives_strictly(&settings.smoothing());
-        survives_strictly(&settings.tautening());
-        survives_strictly(&settings.seaming());
-        survives_strictly(&FillOptions { flow: Some([0.75, 1.33]), ..FillOptions::for_width(settings.width) });
-        survives_strictly(&SkinOptions { floor: settings.floor, ..SkinOptions::for_width(settings.width) });
-        survives_strictly(&AuditSettings { offset: [machine.feed, -machine.feed], ..AuditSettings::for_width(settings.width) });
-        survives_strictly(&Calibration { width: settings.width, mm3_per_e: Some(machine.feed), ..Calibration::default() });
-        survives_strictly(&machine);
+        assert_survives_strictly(&settings);
+        assert_survives_strictly(&settings.criterion());
+        assert_survives_strictly(&settings.slicing());
+        assert_survives_strictly(&settings.safeguarding());
+        assert_survives_strictly(&settings.support());
+        assert_survives_strictly(&RouteSettings { tour: TourOptions { seed, ..TourOptions::default() }, ..settings.routing() });
+        assert_survives_strictly(&settings.smoothing());
+        assert_survives_strictly(&settings.tautening());
+        assert_survives_strictly(&settings.seaming());
+        assert_survives_strictly(&FillOptions { flow: Some([0.75, 1.33]), ..FillOptions::for_width(settings.width) });
+        assert_survives_strictly(&SkinOptions { floor: settings.floor, ..SkinOptions::for_width(settings.width) });
+        assert_survives_strictly(&AuditSettings { offset: [machine.feed, -machine.feed], ..AuditSettings::for_width(settings.width) });
+        assert_survives_strictly(&Calibration { width: settings.width, mm3_per_e: Some(machine.feed), ..Calibration::default() });
+        assert_survives_strictly(&machine);
         for size in [Size::Modelled, Size::Scale(settings.width), Size::Height(settings.width)] {
             for ground in [Ground::Keep, Ground::Centre, Ground::At([machine.feed, settings.width])] {
-                survives_strictly(&Placement { size, ground });
+                assert_survives_strictly(&Placement { size, ground });
             }
         }
         let toml = toml::to_string(&Document(settings)).unwrap();
@@ -123,11 +123,11 @@ proptest! {
         let palette = Palette { wall: Colour::new(red, green, blue), ..Palette::default() };
         let at = Some(DVec2::new(scale, -scale));
         let mark = PageMark { kind: title.clone(), fault: true, layer, last_layer: layer, at, measure: scale, unit: "mm".into() };
-        survives_strictly(&PageStyle { title: title.clone(), marks: vec![mark], palette, ..PageStyle::default() });
-        survives_strictly(&SvgStyle { title: Some(title.clone()), scale, palette, ..SvgStyle::default() });
-        survives_strictly(&ViewStyle { azimuth: scale, palette, ..ViewStyle::default() });
-        survives_strictly(&CleaningStyle { title: title.clone(), palette });
-        survives(&CutPlace {
+        assert_survives_strictly(&PageStyle { title: title.clone(), marks: vec![mark], palette, ..PageStyle::default() });
+        assert_survives_strictly(&SvgStyle { title: Some(title.clone()), scale, palette, ..SvgStyle::default() });
+        assert_survives_strictly(&ViewStyle { azimuth: scale, palette, ..ViewStyle::default() });
+        assert_survives_strictly(&CleaningStyle { title: title.clone(), palette });
+        assert_survives(&CutPlace {
             cause: title.clone(), advice: title, at_roots: false, first_layer: layer, last_layer: layer, at: DVec2::splat(scale), length: scale,
         });
     }
@@ -135,15 +135,15 @@ proptest! {
     #[test]
     fn curves_survive(corners in prop::collection::vec((-99.0..99.0f64, -99.0..99.0f64), 3..20)) {
         let Ok(curve) = ClosedCurve::new(corners.iter().copied().map(DVec2::from).collect()) else { return Ok(()) };
-        survives(&curve);
-        survives(&self_crossings(curve.points()));
+        assert_survives(&curve);
+        assert_survives(&self_crossings(curve.points()));
         let index = SegmentIndex::new(vec![curve.segment(0), Segment::new(DVec2::ZERO, DVec2::ONE)], 1.0);
         let held = held_spans(&curve, &index, 5.0);
-        survives(&gaps(curve.length(), &held));
-        survives(&held);
-        survives(&(curve.nearest(DVec2::ONE), curve.locate(9.0), index.nearest(DVec2::ONE)));
+        assert_survives(&gaps(curve.length(), &held));
+        assert_survives(&held);
+        assert_survives(&(curve.nearest(DVec2::ONE), curve.locate(9.0), index.nearest(DVec2::ONE)));
         let metric: Vec<f64> = corners.iter().flat_map(|a| corners.iter().map(move |b| (a.0 - b.0).abs())).collect();
-        survives(&shortest_tour(&MatrixMetric::new(corners.len(), &metric).unwrap(), &[], None, &TourOptions::default()));
+        assert_survives(&shortest_tour(&MatrixMetric::new(corners.len(), &metric).unwrap(), &[], None, &TourOptions::default()));
     }
 }
 
@@ -162,13 +162,13 @@ fn soup() -> Soup {
 #[test]
 fn what_is_read_from_a_file_survives() {
     let soup = soup();
-    survives(&soup);
+    assert_survives(&soup);
     let (mesh, repairs) = soup.repaired().unwrap();
     assert!(repairs.open_edges.count > 0);
-    survives(&repairs);
-    survives(&mesh);
-    survives(&(mesh.bounds(), Format::Stl, Format::ThreeMf));
-    survives(&argil_models::columns());
+    assert_survives(&repairs);
+    assert_survives(&mesh);
+    assert_survives(&(mesh.bounds(), Format::Stl, Format::ThreeMf));
+    assert_survives(&argil_models::columns());
 }
 
 #[test]
@@ -177,19 +177,19 @@ fn a_plan_survives_with_all_that_it_is_made_of() {
     let settings = Settings { floor: 1, ..Settings::for_width(3.0) };
     let mut planner = Planner::default();
     let layers = planner.slices(&mesh, &settings).unwrap();
-    survives(&layers);
+    assert_survives(&layers);
     let plan: Plan = planner.plan_layers(&layers, &settings).unwrap();
-    survives(&plan);
-    survives(&plan.strand);
-    survives(&plan.strand.summaries());
-    survives(&plan.strand.steps().collect::<Vec<_>>());
+    assert_survives(&plan);
+    assert_survives(&plan.strand);
+    assert_survives(&plan.strand.summaries());
+    assert_survives(&plan.strand.steps().collect::<Vec<_>>());
 
     let text = write_gcode(&plan.strand, &GcodeSettings::default()).unwrap() + "G1 Xnan\n";
     let program = read_gcode(&text);
-    survives(&program);
+    assert_survives(&program);
     let report = audit(&program, &mesh, &AuditSettings::for_width(1.5)).unwrap();
     assert!(!report.is_sound() && !report.findings.is_empty(), "another bead than was planned with");
-    survives(&report);
+    assert_survives(&report);
 
     // The verdict of a text is not believed.
     let mut told = serde_json::to_value(&report).unwrap();
@@ -206,23 +206,23 @@ fn what_single_stages_give_survives() {
     let index = SegmentIndex::of_curves([&curve], 1.5);
     let supports = place_supports(&above, &index, &Settings::default().support());
     assert!(!supports.is_empty());
-    survives(&supports);
+    assert_survives(&supports);
 
     let demands: Vec<Demand> =
         supports.iter().map(|s| Demand { position: s.position, anchors: s.needs.clone() }).collect();
-    survives(&demands);
+    assert_survives(&demands);
     let walls = [Wall { points: &below, parent: None }];
     let layer = LayerInput { walls: &walls, demands: &demands, safeguard: &[], above: None, barred: &[] };
     let cycle = Router::new(RouteSettings::for_width(1.5)).unwrap().cycle(&layer).unwrap();
-    survives(&cycle);
+    assert_survives(&cycle);
     let positions: Vec<DVec2> = demands.iter().map(|d| d.position).collect();
-    survives(&argil::route::regions(&walls, &[curve], &positions).unwrap());
+    assert_survives(&argil::route::regions(&walls, &[curve], &positions).unwrap());
 
     let carriers: Vec<Carrier> = Vec::new();
     let path =
         Path { points: &cycle.points, fixed: &cycle.fixed, carriers: &carriers, clear_of: None, felt: &[] };
-    survives(&relax(&path, &ElasticOptions::for_width(1.5)).unwrap());
-    survives(&Carrier { vertex: 3, anchor: DVec2::ONE });
+    assert_survives(&relax(&path, &ElasticOptions::for_width(1.5)).unwrap());
+    assert_survives(&Carrier { vertex: 3, anchor: DVec2::ONE });
 
     let mesh = argil::mesh::read_stl(&argil_models::columns().to_stl()).unwrap();
     let layer = Planner::default().slices(&mesh, &Settings::default()).unwrap().swap_remove(0);
@@ -230,8 +230,8 @@ fn what_single_stages_give_survives() {
     let zone = zones(&[&layer.outline], &options).unwrap().swap_remove(0);
     let walls: Vec<Vec<DVec2>> = layer.walls.iter().map(|wall| wall.points.clone()).collect();
     let section = Section { outline: &layer.outline, walls: &walls };
-    survives(&section.filled(&zone, &options, &[]).unwrap());
-    survives(&fill(&layer.outline, &[], &FillOptions::for_width(1.5), &[]).unwrap());
+    assert_survives(&section.filled(&zone, &options, &[]).unwrap());
+    assert_survives(&fill(&layer.outline, &[], &FillOptions::for_width(1.5), &[]).unwrap());
 }
 
 #[test]

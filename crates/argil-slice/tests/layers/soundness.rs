@@ -1,5 +1,4 @@
 //! What must be true of every layer, by brute force.
-#![allow(dead_code, reason = "each test takes what it needs")]
 
 use argil_slice::{Layer, Loss, SliceSettings, WallLoop, outer_walls};
 use geo::{Area, Contains, Distance, Euclidean};

@@ -1,16 +1,12 @@
 //! Contours of layers made a mesh, and cut again.
-#![allow(clippy::unwrap_used, reason = "a test may fail by panicking, also outside of its own function")]
 
-mod body;
-mod soundness;
-
+use crate::body::{Body, star};
+use crate::soundness::{distance_to, polygon};
 use argil_slice::{Loss, SliceError, SliceSettings, slice, stacked};
-use body::{Body, star};
 use geo::Contains;
 use geo_types::Point;
 use glam::DVec2;
 use proptest::prelude::*;
-use soundness::{distance_to, polygon};
 
 /// Contours of random layers: rings about several centres, which overlap as they like and run either way.
 fn contours() -> impl Strategy<Value = Vec<Vec<Vec<DVec2>>>> {

@@ -1,15 +1,11 @@
 //! Bodies that overlap, are inside out, torn or twice there: what is cut, and what is told.
-#![allow(clippy::unwrap_used, reason = "a test may fail by panicking, also outside of its own function")]
 
-mod body;
-mod soundness;
-
+use crate::body::{Body, star};
+use crate::soundness::{area, check, settings};
 use argil_slice::mesh::Mesh;
 use argil_slice::{Layer, Loss, slice};
-use body::{Body, star};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use soundness::{area, check, settings};
 
 proptest! {
     // Always the same bodies, so that the gate says the same twice.

@@ -1,17 +1,13 @@
 //! Invariants of the walls of sound bodies, over meshes made here.
-#![allow(clippy::unwrap_used, reason = "a test may fail by panicking, also outside of its own function")]
-
-mod body;
-mod soundness;
 
 use std::f64::consts::TAU;
 
+use crate::body::{Body, star};
+use crate::soundness::{area, check, check_cover, segments, settings};
 use argil_slice::{Loss, SliceError, SliceSettings, slice};
-use body::{Body, star};
 use glam::DVec2;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use soundness::{area, check, check_cover, segments, settings};
 
 /// Fins from the middle outwards: direction, length and the widths at both ends, in mm.
 fn fins() -> impl Strategy<Value = Vec<(f64, f64, [f64; 2])>> {

@@ -1,5 +1,4 @@
 //! Bodies that the tests cut.
-#![allow(dead_code, reason = "each test takes what it needs")]
 
 use std::f64::consts::TAU;
 
