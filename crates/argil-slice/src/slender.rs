@@ -30,8 +30,8 @@ const STEP: f64 = 0.4;
 /// A wall farther than this from its place, in w, is not there.
 const MISSING: f64 = 0.06;
 
-/// How much nearer than half a bead the outline may be to a place of the wall, in w.
-const SLACK: f64 = 0.001;
+/// How much nearer than half a bead the outline may be to a place of the wall, in w: it was simplified by not quite as much.
+pub(crate) const SLACK: f64 = 0.003;
 
 /// Whether the wall is missing somewhere half a bead inside of the outline, where its place is as far as that from all of the outline.
 ///
@@ -57,18 +57,17 @@ pub(crate) fn is_strip_lost(outline: &[Vec<DVec2>], wall: &SegmentIndex, width: 
     })
 }
 
-/// The region with its slender parts made wide enough for two lanes, and joined where they follow one another; and these strips.
+/// The slender parts of a region, made wide enough for two lanes and joined where they follow one another.
 ///
 /// # Complexity
 /// That of a few offsets of the region.
-pub(crate) fn thickened(region: &MultiPolygon<f64>, width: f64, chord: f64) -> [MultiPolygon<f64>; 2] {
+pub(crate) fn strips(region: &MultiPolygon<f64>, width: f64, chord: f64) -> MultiPolygon<f64> {
     let stout = mitred_dilation(&inset(region, SLENDER * width, chord), SLENDER * width);
     let mut slender = region.difference(&stout);
     slender.0.retain(|part| perimeter(&ring_points(part.exterior())) >= LEAST * width);
     if slender.0.is_empty() {
-        return [region.clone(), slender];
+        return slender;
     }
     let closed = inset(&dilation(&slender, GAP * width, chord), GAP * width, chord);
-    let strips = dilation(&closed.union(&slender), GROWTH * width, chord);
-    [region.union(&strips), strips]
+    dilation(&closed.union(&slender), GROWTH * width, chord)
 }

@@ -6,12 +6,12 @@ use crate::layer::{Loss, WallLoop};
 use crate::mitre::mitre;
 use crate::region::{self, perimeter, polygon_through, ring_points, signed_area};
 use crate::simplification::{rounded, simplified};
-use crate::slender::{is_strip_lost, thickened};
+use crate::slender::{SLACK, is_strip_lost, strips};
 use crate::soundness::unsound;
 use crate::spine::{self, is_bare_somewhere};
 use crate::thin::{HALF_LANE, has_spine, with_spines};
 use argil_curve::SegmentIndex;
-use geo::{Area, Contains, Intersects};
+use geo::{Area, BooleanOps, Contains, Intersects};
 use geo_types::{MultiPolygon, Polygon};
 use glam::DVec2;
 
@@ -212,7 +212,8 @@ impl<'a> Source<'a> {
     /// The pieces with what is slender widened; opened as little as any.
     fn widened_pieces(self, settings: &SliceSettings) -> Vec<Piece<'a>> {
         let (width, chord) = (settings.width, CHORD * settings.width);
-        let [whole, strips] = thickened(&region::inset(self.polygon, self.distance, chord), width, chord);
+        let strips = strips(&region::inset(self.polygon, self.distance - SLACK * width, chord), width, chord);
+        let whole = region::inset(self.polygon, self.distance, chord).union(&strips);
         let opening = ATTEMPTS[0].opening * width;
         let opened = region::mitred_dilation(&region::inset(&whole, opening, chord), opening);
         let piece = |region: Polygon<f64>| {

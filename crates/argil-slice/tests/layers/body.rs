@@ -38,10 +38,15 @@ impl Body {
 
     /// A ring-shaped prism: the outer radii less a wall.
     pub(crate) fn tube(radii: &[f64], wall: f64, z: [f64; 2]) -> Self {
-        let n = radii.len() as u32;
         let inner: Vec<f64> = radii.iter().map(|r| r - wall).collect();
-        let vertices = [(radii, z[0]), (radii, z[1]), (&inner, z[0]), (&inner, z[1])];
-        let vertices = vertices.into_iter().flat_map(|(radii, z)| Self::ring(radii, [0.0; 2], z)).collect();
+        Self::hollow(radii, &inner, [0.0; 2], z)
+    }
+
+    /// A prism with another one, whose base is star-shaped about `at`, taken out of it; both bases have as many corners.
+    pub(crate) fn hollow(radii: &[f64], inner: &[f64], at: [f64; 2], z: [f64; 2]) -> Self {
+        let n = radii.len() as u32;
+        let rings = [(radii, [0.0; 2], z[0]), (radii, [0.0; 2], z[1]), (inner, at, z[0]), (inner, at, z[1])];
+        let vertices = rings.into_iter().flat_map(|(radii, at, z)| Self::ring(radii, at, z)).collect();
         let quad = |a: u32, b: u32, c: u32, d: u32| [[a, b, c], [a, c, d]];
         let sides = |k: u32| {
             let next = (k + 1) % n;

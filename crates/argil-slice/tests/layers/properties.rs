@@ -1,9 +1,9 @@
 //! Invariants of the walls of sound bodies, over meshes made here.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use crate::body::{Body, star};
-use crate::soundness::{area, check, check_cover, segments, settings};
+use crate::soundness::{area, check, check_cover, distance_to, segments, settings};
 use argil_slice::{Loss, SliceError, SliceSettings, slice};
 use glam::DVec2;
 use proptest::prelude::*;
@@ -159,6 +159,42 @@ fn a_tube_three_beads_thick_has_its_second_wall_all_round() {
             let wanted = 2.0 * TAU * (12.0 - 0.5 * thickness);
             assert!((second - wanted).abs() < 0.01 * wanted, "{thickness} mm thick: {second} of {wanted} mm");
             assert!(layer.losses.is_empty());
+        }
+    }
+}
+
+#[test]
+fn what_is_hardly_wider_than_a_bead_keeps_its_wall() {
+    let (count, radius) = (48, 9.0);
+    for (wall, rough) in [(1.5, 0.03), (1.51, 0.03), (1.52, 0.05), (1.54, 0.05), (1.56, 0.08), (1.6, 0.1)] {
+        // Here wider than a bead by a hair, there narrower.
+        let inner = |k: usize| radius - wall + rough * (2.0 * (0.618 * k as f64).fract() - 1.0);
+        let inner: Vec<f64> = (0..count).map(inner).collect();
+        let body = Body::hollow(&vec![radius; count], &inner, [0.0; 2], [0.0, 1.0]);
+        for layer in &slice(&body.mesh(), &settings(1)).unwrap() {
+            check(layer, &settings(1)).unwrap();
+            let sides: Vec<_> = layer.walls.iter().flat_map(segments).collect();
+            let outline: Vec<_> = layer
+                .outline
+                .iter()
+                .flat_map(|part| {
+                    std::iter::once(part.exterior()).chain(part.interiors()).flat_map(|ring| ring.lines())
+                })
+                .map(|line| (DVec2::new(line.start.x, line.start.y), DVec2::new(line.end.x, line.end.y)))
+                .collect();
+            let to = |p: DVec2, all: &[(DVec2, DVec2)]| {
+                all.iter().map(|&side| distance_to(p, side)).fold(f64::MAX, f64::min)
+            };
+            let (mut places, mut missed) = (0, 0);
+            for k in 0..720 {
+                let p = DVec2::from_angle(TAU * f64::from(k) / 720.0)
+                    * (radius * (PI / count as f64).cos() - 0.75);
+                if to(p, &outline) > 0.751 {
+                    places += 1;
+                    missed += usize::from(to(p, &sides) > 0.1);
+                }
+            }
+            assert!(missed * 50 <= places, "{wall} {rough}: {missed} of {places}");
         }
     }
 }
