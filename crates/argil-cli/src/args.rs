@@ -27,6 +27,8 @@ pub(crate) enum Command {
     #[command(after_help = PLAN_EXAMPLES)]
     Plan(Box<PlanArgs>),
     /// Measure a g-code file of any slicer against its model, by geometry alone.
+    ///
+    /// What is not given of the bead is what the file states of it, if `argil plan` wrote it; else the defaults hold.
     #[command(after_help = EXIT_STATUS)]
     Audit(Box<AuditArgs>),
     /// Write test prints that measure a paste, and the page that tells how to read them.
@@ -94,9 +96,9 @@ pub(crate) struct BeadArgs {
     /// Layer height in mm [default: with the width, or a third of it].
     #[arg(long, value_name = "MM", allow_negative_numbers = true)]
     pub(crate) layer_height: Option<f64>,
-    /// Walls side by side along every outline.
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    pub(crate) walls: usize,
+    /// Walls side by side along every outline [default: 1].
+    #[arg(long, value_name = "N")]
+    pub(crate) walls: Option<usize>,
     /// The model is a sheet without thickness, as for spiral vases: its surface is the path of the wall itself.
     #[arg(long)]
     pub(crate) surface: bool,
@@ -342,7 +344,7 @@ impl CalibrateArgs {
             material: self.material.clone(),
             width: self.width,
             layer_height: self.layer_height,
-            walls: 1,
+            walls: None,
             surface: false,
             across: None,
             along: None,

@@ -11,24 +11,24 @@ use crate::args::AuditArgs;
 use crate::failure::{FINDINGS, Failure};
 use crate::profiles::Profiles;
 use crate::progress::Waiting;
+use crate::stated::completed;
 use crate::{input, output};
 
 /// Measures a file and tells what it found.
 pub(crate) fn run(args: &AuditArgs) -> Result<ExitCode, Failure> {
-    let profiles = Profiles::of(&args.bead)?;
-    let settings = Settings {
-        floor: args.floor,
-        skin: usize::from(args.skin),
-        ..input::settings(&args.bead, &profiles)?
-    };
+    let bytes = std::fs::read(&args.gcode).map_err(|source| Failure::reading(&args.gcode, source))?;
+    let text = String::from_utf8_lossy(&bytes);
+    let bead = completed(&args.bead, &text);
+    let profiles = Profiles::of(&bead)?;
+    let settings =
+        Settings { floor: args.floor, skin: usize::from(args.skin), ..input::settings(&bead, &profiles)? };
     args.json.iter().try_for_each(|path| output::check(path))?;
     let mesh = input::model(&args.model, args.place, &profiles, &settings)?.mesh;
-    let bytes = std::fs::read(&args.gcode).map_err(|source| Failure::reading(&args.gcode, source))?;
     let wanted = wanted(&settings);
     let wanted =
         AuditSettings { tolerance_width: args.tolerance_width.unwrap_or(wanted.tolerance_width), ..wanted };
     let waiting = Waiting::new("auditing", false);
-    let report = audit(&read_gcode(&String::from_utf8_lossy(&bytes)), &mesh, &wanted)
+    let report = audit(&read_gcode(&text), &mesh, &wanted)
         .map_err(|source| Failure::input(&args.gcode.display().to_string(), source))?;
     drop(waiting);
     if !args.json.as_deref().is_some_and(output::is_standard) {

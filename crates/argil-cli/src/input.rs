@@ -108,7 +108,7 @@ pub(crate) fn settings(bead: &BeadArgs, profiles: &Profiles) -> Result<Settings,
     let known = profiles.bead().filter(|_| bead.width.is_none());
     let (width, height) = known.map_or((bead.width, None), |(width, height)| (Some(width), height));
     let mut settings = width.map_or_else(Settings::default, Settings::for_width);
-    settings.walls = bead.walls;
+    settings.walls = bead.walls.unwrap_or(settings.walls);
     settings.surface = bead.surface;
     if let Some(height) = bead.layer_height.or(height) {
         settings.layer_height = height;

@@ -28,6 +28,7 @@ mod report;
 mod samples_command;
 mod shell_command;
 mod shrinkage;
+mod stated;
 
 use std::ffi::OsString;
 use std::process::ExitCode;

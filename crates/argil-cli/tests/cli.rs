@@ -185,6 +185,16 @@ fn a_model_is_scaled_and_centred() {
 }
 
 #[test]
+fn a_file_is_audited_by_the_bead_that_it_states() {
+    let folder = folder("stated");
+    let bead = ["--layer-height", "0.7", "--walls", "2"];
+    ends(&folder, DONE, &[&["plan", "-o", "out.gcode"], &QUICK[..], &bead].concat());
+    let audit = ["audit", "out.gcode", "--model", "sample:columns"];
+    ends(&folder, DONE, &audit);
+    ends(&folder, FINDINGS, &[&audit[..], &["--layer-height", "0.5"]].concat());
+}
+
+#[test]
 fn floors_and_skins_are_fill_of_the_same_strand() {
     let folder = folder("skin");
     let closed = ["--floor", "2", "--skin", "1", "--report", "out.json"];
