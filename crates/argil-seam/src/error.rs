@@ -15,7 +15,7 @@ pub enum SeamError {
         value: f64,
     },
     /// The extra cost forbids every start of the lowest layer.
-    #[error("the cost forbids every start of the lowest layer")]
+    #[error("the lowest layer can begin nowhere: every start of it is forbidden")]
     NoStart,
     /// No start of a layer is held and within reach of a possible start of the layer below by a step that
     /// crosses nothing.

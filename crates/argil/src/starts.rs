@@ -43,8 +43,8 @@ const REPLANS: usize = 8;
 /// How far round a start that is left out none lies, in w.
 const LEFT_OUT: f64 = 0.3;
 
-/// A cycle counts as closed this far from its start, mm; what of the step lies nearer may stand for the start itself.
-const CLOSING: f64 = 0.05;
+/// A cycle counts as closed this far from its start, in w; what of the step lies nearer may stand for the start itself.
+const CLOSING: f64 = 1.0 / 30.0;
 /// Vertices no farther apart than this are one place, mm.
 const ON_VERTEX: f64 = 2e-4;
 
@@ -83,7 +83,8 @@ pub(crate) fn opened_layers(
     }
     stack.climbed(&starts, longest, true).map_err(|stuck| {
         let layer = stuck.first().copied().unwrap_or_default();
-        let below = layer.checked_sub(1).map_or(DVec2::ZERO, |k| stack.cycles[k].point_at(starts[k]));
+        let Some(k) = layer.checked_sub(1) else { return SeamError::NoStart };
+        let below = stack.cycles[k].point_at(starts[k]);
         SeamError::NoStep { layer, below, gap: stack.cycles[layer].nearest(below).distance }
     })
 }
@@ -292,7 +293,7 @@ impl Ascent<'_> {
             && (self.is_vertex(begin) || is_simple(begin, &stretches))
             && self.from.is_none_or(|(from, _)| {
                 let step = Segment::new(from, begin);
-                let closing = step.point_at(1.0 - (CLOSING / step.length()).min(1.0));
+                let closing = step.point_at(1.0 - (CLOSING * self.settings.width / step.length()).min(1.0));
                 is_clear(&step, &stretches)
                     && is_simple(closing, &stretches)
                     && !self.is_pierced(step, &stretches)
