@@ -213,7 +213,7 @@ fn text_of(output: &Output) -> String {
 fn options_are_printed_as_the_file_that_gives_them() {
     let folder = folder("printed");
     let (bare, _) = ends(&folder, 0, &["plan", "--print-config"]);
-    assert!(bare.contains("\nwalls = 1\n") && bare.contains("\n# width =\n"), "{bare}");
+    assert!(bare.contains("\nwipe = 0\n") && bare.contains("\n# walls =\n"), "{bare}");
     let options =
         ["--width", "3", "--feed", "20", "--e", "absolute", "--quiet", "--printer", "generic-klipper"];
     let (file, _) = ends(
