@@ -13,10 +13,11 @@ use geo_types::MultiPolygon;
 use crate::blunt::blunted;
 use crate::clearance::SafeguardField;
 use crate::error::LayerFault;
-use crate::foothold::{Foothold, foothold, hold_start, rechained};
+use crate::foothold::{Foothold, hold_start};
 use crate::hold::{Check, Fault};
 use crate::model::ModelLayer;
 use crate::passage::Walled;
+use crate::settle::settle;
 use crate::stages::{Route, Smooth, Support, Tauten};
 use crate::{LayerReport, PlanError, Progress, Settings, StageTimes};
 
@@ -110,12 +111,7 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
             )?;
             let below = k.checked_sub(1).map_or_else(|| SegmentIndex::new(Vec::new(), 1.0), walls_of);
             let (own, seam) = (standing.take().unwrap_or_else(|| walls_of(k)), self.settings.seaming());
-            let place = foothold(&done.curve, above.zip(start), [&own, &below], &seam).or_else(|| {
-                let (place, arcs) = rechained(&done.curve, &planned, &below, &seam)?;
-                planned.iter_mut().zip(arcs).for_each(|(layer, arc)| layer.foothold = arc);
-                Some(place)
-            });
-            let place = place.unwrap_or_else(|| Foothold::nearest(&done.curve, start));
+            let place = settle(&done.curve, &mut planned, start, [&own, &below], &seam);
             start = Some(place);
             standing = Some(below);
             planned.push(PlannedLayer { foothold: place.arc, ..done });

@@ -6,20 +6,19 @@
 //! asked to hold it. On walls that stand on walls this costs nothing. The seam stage is free to find a better chain.
 
 use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex};
-use argil_seam::{SeamSettings, is_clear, seam_chain_among};
+use argil_seam::{SeamSettings, is_clear};
 use argil_support::SupportPoint;
 
 use crate::Settings;
-use crate::descent::PlannedLayer;
 
 /// Share of the longest step that is used, so that starts on the seam stage's own spacing reach each other too.
 const STEP: f64 = 0.85;
 
-/// Share of that step that is tried first where a wall leads up: a long step sags.
-const SHORT: f64 = 0.5;
+/// Share of the longest step that is tried first: a long step sags.
+const SHORT: f64 = 0.475;
 
 /// Share of `ε_across` within which a wall must pass, for the same reason.
-const HELD: f64 = 0.65;
+pub(crate) const HELD: f64 = 0.65;
 
 /// How far ahead of a start that no wall leads up to the strand is asked to go, in w: towards a wall that does, and no farther than
 /// a step.
@@ -29,11 +28,8 @@ const AHEAD: f64 = 0.6;
 const DIRECTIONS: usize = 16;
 const SHUT_AT_MOST: usize = 3;
 
-/// What a place costs that what holds it need not lead up to, in squares of the longest step.
-const SHUT: f64 = 30.0;
-
-/// Spacing of the places on walls that are looked at for one that leads up, in w.
-const LOOK: f64 = 0.5;
+/// Spacing of the places on walls that are looked at for one that leads up, as a share of the longest step.
+const LOOK: f64 = 0.68;
 
 /// A start, and how it stands to the walls below.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,6 +51,22 @@ impl Foothold {
     }
 }
 
+/// What steps are asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Steps {
+    /// Such as hardly sag, to starts that something leads up to wherever it passes.
+    Short,
+    /// Any that are allowed.
+    Long,
+}
+
+impl Steps {
+    pub(crate) fn reach(self, seam: &SeamSettings) -> f64 {
+        let share = if self == Self::Short { SHORT } else { STEP };
+        share * seam.reach
+    }
+}
+
 /// The start on a planned cycle: within a step of the start above, over the walls below where one is, else as near
 /// to them as can be had, so that the starts make for the walls. `above` is the cycle above with its start; the step
 /// up to it must cross nothing there. `walls` are those of this layer and of the one below.
@@ -63,15 +75,16 @@ impl Foothold {
 /// of the one above, and what stands inside can be reached from inside only. Where walls lean to one side, there are some on
 /// the other side that lie inside: the starts make for these.
 ///
-/// `None` where no place leads up to the start above.
+/// `None` where no place leads up to the start above by such steps.
 pub(crate) fn foothold(
     cycle: &ClosedCurve,
     above: Option<(&ClosedCurve, Foothold)>,
     walls: [&SegmentIndex; 2],
     seam: &SeamSettings,
+    steps: Steps,
 ) -> Option<Foothold> {
-    let [here, below] = walls;
-    let reach = STEP * seam.reach;
+    let below = walls[1];
+    let reach = steps.reach(seam);
     let held = HELD * seam.across;
     let rated: Vec<Place> = places_within(cycle, above, reach, seam)
         .into_iter()
@@ -93,22 +106,21 @@ pub(crate) fn foothold(
     let led = |fits: &dyn Fn(&Place) -> bool| best(&|place| place.led && fits(place), &|place| place.hanging);
     let trapped = |fits: &dyn Fn(&Place) -> bool| {
         let from = above.map_or_else(|| cycle.point_at(0.0), |(_, start)| start.at);
-        let toward = wall_in_sight(from, here, below, LOOK / 0.73 * seam.reach);
+        let toward = wall_in_sight(from, walls, seam);
         let far = |place: &Place| toward.map_or(place.hanging, |wall| wall.distance(place.start.at));
         let start = best(&|place| !place.led && fits(place), &far)?;
         Some(Foothold { toward: toward.or_else(|| off_wall(start.at, below, seam.across)), ..start })
     };
-    let short = SHORT * reach;
-    led(&|place| place.start.over_wall && place.step <= short)
-        .or_else(|| led(&|place| place.lasting))
-        .or_else(|| trapped(&|place| place.lasting))
-        .or_else(|| led(&|_| true))
-        .or_else(|| trapped(&|_| true))
+    let lasting = led(&|place| place.lasting).or_else(|| trapped(&|place| place.lasting));
+    match steps {
+        Steps::Short => led(&|place| place.start.over_wall).or(lasting),
+        Steps::Long => lasting.or_else(|| led(&|_| true)).or_else(|| trapped(&|_| true)),
+    }
 }
 
 /// A place beside a start, on the side from which steps lead up to it: farther from the nearest wall below by as much as what holds it
 /// may be. Strand that only came near the start could stay on the wall's side. `None` where a wall stands there.
-fn off_wall(start: DVec2, below: &SegmentIndex, across: f64) -> Option<DVec2> {
+pub(crate) fn off_wall(start: DVec2, below: &SegmentIndex, across: f64) -> Option<DVec2> {
     let wall = below.nearest(start)?;
     let away = across * (start - wall.point).normalize_or_zero();
     let beyond = below.nearest(start + 2.0 * away)?;
@@ -154,51 +166,20 @@ fn places_within(
 /// Whether what holds a cycle at an arc leads up to it, wherever that passes: the steps that come from as far away as that may be
 /// are clear from nearly all directions. On a straight strand they are, and at the tip of a narrow hairpin; on one of its legs they are
 /// not, since what holds it may pass beyond the other leg.
-fn is_open(cycle: &ClosedCurve, arc: f64, across: f64) -> bool {
+pub(crate) fn is_open(cycle: &ClosedCurve, arc: f64, across: f64) -> bool {
     let at = cycle.point_at(arc);
     let towards = |k: usize| across * DVec2::from_angle(k as f64 * std::f64::consts::TAU / DIRECTIONS as f64);
     let is_shut = |k: &usize| !is_clear(&Segment::new(at + towards(*k), at), arc, cycle);
     (0..DIRECTIONS).filter(is_shut).nth(SHUT_AT_MOST).is_none()
 }
 
-/// A chain of starts through all cycles planned so far and `cycle`, which lies below them, with other starts than were kept open: where
-/// none on `cycle` leads up to the start above, another start there, or further up, may have some. `planned` is top first.
-/// Returns the start on `cycle`, near a wall below if that can be, and the arcs of the others, top first; `None` where no chain exists.
-///
-/// # Complexity
-/// As [`seam_chain_among`], over all layers above. It is hardly ever needed.
-pub(crate) fn rechained(
-    cycle: &ClosedCurve,
-    planned: &[PlannedLayer],
-    below: &SegmentIndex,
-    seam: &SeamSettings,
-) -> Option<(Foothold, Vec<f64>)> {
-    let cycles: Vec<ClosedCurve> =
-        std::iter::once(cycle).chain(planned.iter().rev().map(|layer| &layer.curve)).cloned().collect();
-    let also: Vec<f64> =
-        std::iter::once(0.0).chain(planned.iter().rev().map(|layer| layer.foothold)).collect();
-    let held = HELD * seam.across;
-    let hanging = |p: DVec2| below.nearest(p).map_or(0.0, |wall| (wall.distance - held).max(0.0));
-    let cost = |layer: usize, p: DVec2| {
-        let here = || {
-            let far = hanging(p);
-            let shut = far > 0.0 && !is_open(cycle, cycle.nearest(p).s, seam.across);
-            far.powi(2) + if shut { SHUT * seam.reach.powi(2) } else { 0.0 }
-        };
-        if layer == 0 { here() } else { 0.0 }
-    };
-    let mut arcs = seam_chain_among(&cycles, &also, seam, &cost).ok()?;
-    let arc = arcs.remove(0);
-    let at = cycle.point_at(arc);
-    let over_wall = below
-        .nearest(at)
-        .is_some_and(|wall| wall.distance <= held && is_clear(&Segment::new(wall.point, at), arc, cycle));
-    arcs.reverse();
-    Some((Foothold { at, arc, over_wall, toward: None }, arcs))
-}
-
 /// The place on the walls below that is nearest to a point and not behind a wall of its own layer.
-fn wall_in_sight(from: DVec2, here: &SegmentIndex, below: &SegmentIndex, spacing: f64) -> Option<DVec2> {
+pub(crate) fn wall_in_sight(
+    from: DVec2,
+    [here, below]: [&SegmentIndex; 2],
+    seam: &SeamSettings,
+) -> Option<DVec2> {
+    let spacing = LOOK * seam.reach;
     let mut places: Vec<(f64, DVec2)> = below
         .segments()
         .iter()
@@ -242,7 +223,6 @@ pub(crate) fn hold_start(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::LayerReport;
 
     fn ring(radius: f64) -> ClosedCurve {
         let points = (0..48).map(|k| radius * DVec2::from_angle(f64::from(k) * std::f64::consts::TAU / 48.0));
@@ -266,8 +246,14 @@ mod tests {
         };
         let mut start = on(&strand(0), DVec2::new(4.0, 0.0));
         for layer in 1..20 {
-            let next =
-                foothold(&strand(layer), Some((&strand(layer - 1), start)), [&none, &walls], &seam).unwrap();
+            let next = foothold(
+                &strand(layer),
+                Some((&strand(layer - 1), start)),
+                [&none, &walls],
+                &seam,
+                Steps::Long,
+            )
+            .unwrap();
             assert!(next.at.distance(start.at) <= seam.reach);
             start = next;
         }
@@ -285,7 +271,7 @@ mod tests {
         let walls = SegmentIndex::of_curves([&ring(12.0)], 1.5);
         let none = SegmentIndex::new(Vec::new(), 1.5);
         let above = Foothold { at: DVec2::new(7.8, 0.1), arc: 0.0, over_wall: false, toward: None };
-        let start = foothold(&cycle, Some((&ring(7.8), above)), [&none, &walls], &seam).unwrap();
+        let start = foothold(&cycle, Some((&ring(7.8), above)), [&none, &walls], &seam, Steps::Long).unwrap();
         assert_eq!(start.at, DVec2::new(8.0, 0.05));
     }
 
@@ -333,44 +319,7 @@ mod tests {
         let none = SegmentIndex::new(Vec::new(), 1.5);
         let inside = DVec2::new(7.2, 0.0);
         let inside = Foothold { at: inside, arc: 0.0, over_wall: false, toward: None };
-        let tip = foothold(&cycle, Some((&ring(7.2), inside)), [&none, &walls], &seam).unwrap();
+        let tip = foothold(&cycle, Some((&ring(7.2), inside)), [&none, &walls], &seam, Steps::Long).unwrap();
         assert!(tip.at.length() < 9.9 && !tip.over_wall, "{tip:?}");
-    }
-
-    #[test]
-    fn a_start_that_nothing_leads_up_to_gives_way_to_one_that_something_does() {
-        let seam = SeamSettings::for_width(1.5);
-        let none = SegmentIndex::new(Vec::new(), 1.5);
-        let curve = |points: &[(f64, f64)]| {
-            ClosedCurve::new(points.iter().map(|&p| DVec2::from(p)).collect()).unwrap()
-        };
-        // The start lies in a pocket of its cycle whose mouth is shut; the strand below passes outside of it.
-        let pocket = [
-            (0.0, 0.0),
-            (0.0, 0.4),
-            (-0.2, 0.4),
-            (-0.2, -0.2),
-            (0.2, -0.2),
-            (0.2, 0.4),
-            (0.05, 0.4),
-            (0.05, 0.0),
-        ];
-        let above = curve(&pocket);
-        let below = curve(&[(-1.0, -0.6), (1.0, -0.6), (0.3, -0.25), (-0.3, -0.25)]);
-        let hidden = above.nearest(DVec2::new(0.0, 0.2));
-        let start = Foothold { at: hidden.point, arc: hidden.s, over_wall: false, toward: None };
-        assert_eq!(foothold(&below, Some((&above, start)), [&none, &none], &seam), None);
-        let planned = PlannedLayer {
-            report: LayerReport::default(),
-            z: 0.0,
-            curve: above.clone(),
-            legs: Vec::new(),
-            fill: Vec::new(),
-            supports: Vec::new(),
-            foothold: hidden.s,
-        };
-        let (start, arcs) = rechained(&below, &[planned], &none, &seam).unwrap();
-        let step = Segment::new(start.at, above.point_at(arcs[0]));
-        assert!(step.length() <= seam.reach && is_clear(&step, arcs[0], &above));
     }
 }

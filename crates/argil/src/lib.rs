@@ -40,6 +40,7 @@ mod passage;
 mod plan;
 mod planner;
 mod settings;
+mod settle;
 mod skirt;
 mod spiral;
 pub mod stages;
