@@ -14,7 +14,10 @@ const BESIDE: f64 = 1.0 / 12.0;
 const ALONG: f64 = 1.05;
 
 /// Spacing of the samples, in w. Less than twice [`BESIDE`], so that no change of sides is missed.
-const STEP: f64 = 0.15;
+const STEP: f64 = 0.05;
+
+/// Samples of a path at most.
+const MOST_SAMPLES: f64 = 1e7;
 
 /// Spacing of the samples of a step, in w: a short one has to show its side as well.
 const FINE: f64 = 0.02;
@@ -55,26 +58,44 @@ impl Walled {
         if self.rings.is_empty() {
             return Vec::new();
         }
-        let count = (path.length() / (STEP * self.width)).ceil().clamp(3.0, 1e7) as usize;
-        let step = path.length() / count as f64;
-        let sample = |k: usize| path.point_at(((k % count) as f64 + 0.5) * step);
+        let spacing = (STEP * self.width).max(path.length() / MOST_SAMPLES);
+        let samples = path.resampled(spacing);
+        let on_wall = self.on_wall(&samples, path.length() / samples.len() as f64);
         // Once round, from free strand to the same: what begins beside the wall would have no side to come from.
-        let Some(first) = (0..count).find(|&k| self.is_free(sample(k))) else { return Vec::new() };
+        let Some(first) = on_wall.iter().position(|on| !on) else { return Vec::new() };
+        let (count, step) = (samples.len(), path.length() / samples.len() as f64);
         let mut found = Vec::new();
         // The side that the path was on before it met the wall, and how long it has run along the wall since.
-        let (mut side, mut run) = (self.contains(sample(first)), 0.0);
-        for p in (first + 1..=first + count).map(sample) {
-            if !self.is_free(p) {
+        let (mut side, mut run) = (self.contains(samples[first]), 0.0);
+        for k in (first + 1..=first + count).map(|k| k % count) {
+            if on_wall[k] {
                 run += step;
             } else if run > 0.0 {
-                let now = self.contains(p);
+                let now = self.contains(samples[k]);
                 if now != side && run < ALONG * self.width {
-                    found.push(p);
+                    found.push(samples[k]);
                 }
                 (side, run) = (now, 0.0);
             }
         }
         found
+    }
+
+    /// Which of the samples along a path, at most `step` apart, are on the wall. One look at the middle of three settles all of
+    /// them where they are well on it or well off it.
+    fn on_wall(&self, samples: &[DVec2], step: f64) -> Vec<bool> {
+        let mut on_wall = Vec::with_capacity(samples.len());
+        for three in samples.chunks(3) {
+            let middle = three[three.len() / 2];
+            if self.sides.is_within(middle, BESIDE * self.width - step) {
+                on_wall.extend(three.iter().map(|_| true));
+            } else if !self.sides.is_within(middle, BESIDE * self.width + step) {
+                on_wall.extend(three.iter().map(|_| false));
+            } else {
+                on_wall.extend(three.iter().map(|&p| !self.is_free(p)));
+            }
+        }
+        on_wall
     }
 
     /// Whether a step, and the strand behind it, get from one side of the wall to the other with less than a bead along the wall between.
