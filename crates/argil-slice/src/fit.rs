@@ -73,7 +73,7 @@ impl Fit<'_> {
         let lines: Vec<Vec<DVec2>> =
             self.rings.iter().map(|ring| ring.iter().chain(ring.first()).copied().collect()).collect();
         let beads = region::beads(&lines, reach, chord);
-        let covered = region::dilation(self.walled, reach, chord).union(&beads);
+        let covered = self.walled.union(&beads);
         let missed = MultiPolygon(vec![self.original.clone()]).difference(&covered);
         missed
             .iter()

@@ -11,6 +11,7 @@
 //! Lengths are millimetres, z is up; loops round solid run counter-clockwise, round holes clockwise.
 #![forbid(unsafe_code)]
 
+mod centring;
 mod chain;
 mod chordal_axis;
 mod containment;

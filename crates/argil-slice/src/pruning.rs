@@ -1,6 +1,7 @@
 //! An axis cut back to what is needed of it.
 
-use crate::chordal_axis::ChordalAxis;
+use crate::centring::centred;
+use crate::chordal_axis::{AxisNode, ChordalAxis};
 use crate::mitre::REACH;
 use crate::spine::{CLEARANCE, LEAST_LENGTH, STEP};
 use crate::thin::HALF_LANE;
@@ -10,6 +11,10 @@ use std::collections::VecDeque;
 
 /// Points farther than this from the boundary, in w, lie inside the wall, which was opened by 0.01 w.
 const INSIDE_WALL: f64 = 0.511;
+
+/// The wall may be farther than its distance from the boundary tells by this, in w. Slivers that were opened away are no wall: the spine runs
+/// through them.
+const BESIDE_WALL: f64 = 0.06;
 
 /// Where a spine would close a ring round a hole together with the wall, it is left open by this, in w: the bead's
 /// round ends meet, and there is one loop in place of two side by side.
@@ -49,15 +54,17 @@ impl Pruning {
         wall: &SegmentIndex,
         width: f64,
     ) -> Self {
-        let has_wall = !wall.is_empty();
         let count = axis.nodes.len();
         let depth: Vec<f64> = axis
             .nodes
             .iter()
             .map(|node| sides.nearest_within(node.at, width).map_or(width, |nearest| nearest.distance))
             .collect();
-        let anchored: Vec<bool> =
-            depth.iter().map(|&depth| has_wall && depth >= INSIDE_WALL * width).collect();
+        let is_inside = |(node, &depth): (&AxisNode, &f64)| {
+            let is_wall = || wall.is_within(node.at, depth - (0.5 - BESIDE_WALL) * width);
+            !wall.is_empty() && (depth >= width || depth >= INSIDE_WALL * width && is_wall())
+        };
+        let anchored: Vec<bool> = axis.nodes.iter().zip(&depth).map(is_inside).collect();
         let mut kept = vec![false; count];
         let mut open: Vec<usize> = (0..count)
             .filter(|&k| {
@@ -127,10 +134,10 @@ impl Pruning {
         self.axis.links[node].iter().copied().filter(open)
     }
 
-    /// What is left, as lines.
-    pub(crate) fn lines(mut self) -> Vec<Vec<DVec2>> {
+    /// What is left, as lines along the middle between the sides of the boundary.
+    pub(crate) fn lines(mut self, sides: &SegmentIndex) -> Vec<Vec<DVec2>> {
         self.cut_back();
-        self.smooth();
+        self.smooth(sides);
         let mut chains = self.chains();
         let mut groups = self.walled_groups();
         // Short ones first: where a ring is cut, it is in the longest of its spines.
@@ -239,19 +246,24 @@ impl Pruning {
         (piece_of, lengths, floats)
     }
 
-    /// Takes out the zigzag of the chords by steps towards the neighbours' middle. Nodes stay near their place, so
+    /// Takes out the zigzag of the chords by steps from the middle of the strip towards the neighbours' middle. Nodes stay near that place, so
     /// that bends are not cut.
-    fn smooth(&mut self) {
+    fn smooth(&mut self, sides: &SegmentIndex) {
         let inner: Vec<(usize, [usize; 2], DVec2)> = (0..self.axis.nodes.len())
             .filter(|&node| self.kept[node] && !self.anchored[node])
             .filter_map(|node| {
                 let mut around = self.neighbours(node);
                 match (around.next(), around.next(), around.next()) {
-                    (Some(a), Some(b), None) => Some((node, [a, b], self.axis.nodes[node].at)),
+                    (Some(a), Some(b), None) => {
+                        Some((node, [a, b], centred(self.axis.nodes[node].at, sides, self.width)))
+                    }
                     _ => None,
                 }
             })
             .collect();
+        for &(node, _, middle) in &inner {
+            self.axis.nodes[node].at = middle;
+        }
         let mut moved = Vec::with_capacity(inner.len());
         for _ in 0..SMOOTHING {
             moved.clear();

@@ -21,6 +21,9 @@ const GROWTH: f64 = 0.025;
 /// Gaps up to twice this, in w, between slender parts are closed.
 const GAP: f64 = 0.5;
 
+/// How far the arcs that close gaps may cut their corners, in w.
+const CLOSING_CHORD: f64 = 0.03;
+
 /// Slender parts shorter round than this, in w, are the tips of corners and stay as they are.
 const LEAST: f64 = 0.7;
 
@@ -68,6 +71,8 @@ pub(crate) fn strips(region: &MultiPolygon<f64>, width: f64, chord: f64) -> Mult
     if slender.0.is_empty() {
         return slender;
     }
-    let closed = inset(&dilation(&slender, GAP * width, chord), GAP * width, chord);
+    // Arcs that are inset by their own radius fall together, and the fewer chords they have, the faster that is cleared.
+    let coarse = CLOSING_CHORD * width;
+    let closed = inset(&dilation(&slender, GAP * width, coarse), GAP * width, coarse);
     dilation(&closed.union(&slender), GROWTH * width, chord)
 }

@@ -74,7 +74,7 @@ pub(crate) fn spines(outline: &[Vec<DVec2>], wall: &SegmentIndex, width: f64) ->
     }
     let bare = bare_points(&boundary.rings, wall, width);
     match ChordalAxis::of(&boundary.rings) {
-        Some(axis) => Pruning::new(axis, &points, &bare, &boundary.sides, wall, width).lines(),
+        Some(axis) => Pruning::new(axis, &points, &bare, &boundary.sides, wall, width).lines(&boundary.sides),
         None => Vec::new(),
     }
 }

@@ -12,8 +12,11 @@ use glam::DVec2;
 /// little that both print one bead.
 pub(crate) const HALF_LANE: f64 = 0.02;
 
-/// Walls all of which lie within this of a spine, in w, are specks where the outline is just as wide as a bead.
+/// Walls all of which lie within this of a spine, in w, are specks where the outline is just as wide as a bead: the spine runs through them.
 const SPECK: f64 = 0.1;
+
+/// Specks all of which lie within this of the spine, in w, are the same path as it.
+const SAME: f64 = 0.035;
 
 /// Holes smaller than this, in w², are gaps between a spine and its wall.
 const LEAST_HOLE: f64 = 0.01;
@@ -35,11 +38,18 @@ pub(crate) fn with_spines(
     let mut joined = walls.union(&swept(spines, HALF_LANE * width));
     let lines = spines.iter().flat_map(|spine| spine.windows(2));
     let lines = SegmentIndex::new(lines.map(|pair| Segment::new(pair[0], pair[1])).collect(), width);
-    joined.0.retain(|polygon| {
-        let ring = ring_points(polygon.exterior());
-        let is_beside = || ring.iter().all(|&p| lines.is_within(p, SPECK * width));
-        has_spine(polygon, spines) || !is_beside()
-    });
+    let farthest = |polygon: &Polygon<f64>| {
+        let distances = ring_points(polygon.exterior()).into_iter().map(|p| lines.distance(p));
+        distances.fold(0.0, f64::max)
+    };
+    joined.0.retain(|polygon| has_spine(polygon, spines) || farthest(polygon) > SAME * width);
+    let is_speck =
+        |polygon: &&Polygon<f64>| !has_spine(polygon, spines) && farthest(polygon) <= SPECK * width;
+    let ties: Vec<Vec<DVec2>> =
+        joined.iter().filter(is_speck).filter_map(|speck| tie(speck, &lines, width)).collect();
+    if !ties.is_empty() {
+        joined = joined.union(&swept(&ties, HALF_LANE * width));
+    }
     for polygon in &mut joined {
         let outer = SegmentIndex::new(sides(&ring_points(polygon.exterior())).collect(), width);
         let near = 3.0 * HALF_LANE * width;
@@ -55,6 +65,15 @@ pub(crate) fn with_spines(
         *polygon = Polygon::new(polygon.exterior().clone(), holes);
     }
     joined
+}
+
+/// A short line from a spine into a speck beside it.
+fn tie(speck: &Polygon<f64>, lines: &SegmentIndex, width: f64) -> Option<Vec<DVec2>> {
+    let nearest = |p: DVec2| lines.nearest(p).map(|spine| (spine.distance, p, spine.point));
+    let ring = ring_points(speck.exterior());
+    let (distance, p, on_spine) = ring.into_iter().filter_map(nearest).min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let beyond = (p - on_spine) * (HALF_LANE * width / distance.max(f64::MIN_POSITIVE)).min(1.0);
+    Some(vec![on_spine, p + beyond])
 }
 
 /// Whether the region has one of the spines in it.
