@@ -40,9 +40,10 @@ pub(crate) fn run(args: &CalibrateArgs) -> Result<ExitCode, Failure> {
             (format!("{name}.gcode"), write_gcode(&print, &written).map_err(unwritten)?)
         };
         output::write(&args.folder.join(&file), text.as_bytes())?;
-        let minutes = print.length() / written.speed(&print, 1) / 60.0;
+        let minutes = (print.length() / written.speed(&print, 1) / 60.0).ceil();
+        let unit = if minutes > 1.0 { "minutes" } else { "minute" };
         eprintln!(
-            "{file}: {:.1} cm³ of paste, about {minutes:.0} minutes",
+            "{file}: {:.1} cm³ of paste, about {minutes:.0} {unit}",
             print.volume_as(written.bead) / 1e3
         );
         machine::misfit(&profiles, &job(name), &print).iter().for_each(|remark| eprintln!("{remark}"));

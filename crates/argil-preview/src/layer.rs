@@ -6,6 +6,7 @@ use argil_strand::{DVec2, Role, Strand, StrandLayer};
 
 use crate::colour::COATS;
 use crate::markup::{Escaped, Num};
+use crate::widths::{drawn_width, width_share};
 use crate::{Colour, Palette};
 
 /// Round ends of a stroke, as a bead has them.
@@ -76,7 +77,7 @@ pub fn layer_svg(strand: &Strand, layer: usize, style: &SvgStyle) -> String {
         if style.ghost {
             picture.ghost(layer + 1);
         }
-        picture.beads(layer, laid);
+        picture.beads(layer);
         if style.ghost {
             picture.ghost_line(layer + 1);
         }
@@ -176,25 +177,34 @@ impl Picture<'_> {
         title
     }
 
-    /// The points of the stretches of one role, as path commands; the move that begins a stretch starts at the end of
-    /// the one before it.
-    fn stretches(&self, layer: usize, role: Role) -> String {
-        let mut path = String::new();
-        let Some(laid) = self.strand.layers().get(layer) else { return path };
+    /// The points of the stretches of one role, as path commands by the width of their beads; the move that begins a stretch starts at
+    /// the end of the one before it.
+    fn stretches(&self, layer: usize, role: Role) -> Vec<(f64, String)> {
+        let mut paths: Vec<(f64, String)> = Vec::new();
+        let Some(laid) = self.strand.layers().get(layer) else { return paths };
+        let widths = self.strand.widths(layer);
         let below = layer.checked_sub(1).and_then(|below| self.strand.layers().get(below));
         let mut at = below.and_then(|below| below.moves.last()).map_or(self.strand.start(), |step| step.to);
-        let mut drawing = false;
-        for step in &laid.moves {
+        let mut drawing = None;
+        for (k, step) in laid.moves.iter().enumerate() {
+            let bead = widths
+                .get(k)
+                .map_or(laid.width, |&bead| drawn_width(width_share(bead, laid.width), laid.width));
+            let path = paths.iter().position(|path| path.0 == bead).unwrap_or(paths.len());
             if step.role == role {
-                if !drawing {
-                    let _ = write!(path, "M{} {}", Num(at.x), Num(-at.y));
+                if path == paths.len() {
+                    paths.push((bead, String::new()));
                 }
-                let _ = write!(path, "L{} {}", Num(step.to.x), Num(-step.to.y));
+                let commands = &mut paths[path].1;
+                if drawing != Some(path) {
+                    let _ = write!(commands, "M{} {}", Num(at.x), Num(-at.y));
+                }
+                let _ = write!(commands, "L{} {}", Num(step.to.x), Num(-step.to.y));
             }
-            drawing = step.role == role;
+            drawing = (step.role == role).then_some(path);
             at = step.to;
         }
-        path
+        paths
     }
 
     fn stroke(&mut self, path: &str, colour: Colour, width: f64, more: &str) {
@@ -234,7 +244,7 @@ impl Picture<'_> {
 
     /// Edge, body and light of every bead: three coats, each over all roles, so that the line between adjoining beads
     /// shows and stretches of one role end smoothly in the next.
-    fn beads(&mut self, layer: usize, laid: &StrandLayer) {
+    fn beads(&mut self, layer: usize) {
         let paths = COATS.map(|role| (role, self.stretches(layer, role)));
         let palette = self.style.palette;
         let coats = [
@@ -243,8 +253,10 @@ impl Picture<'_> {
             (0.42, Colour::WHITE, 0.14, ""),
         ];
         for (share, tint, tone, ends) in coats {
-            for (role, path) in &paths {
-                self.stroke(path, palette.of(*role).towards(tint, tone), laid.width * share, ends);
+            for (role, paths) in &paths {
+                for (width, path) in paths {
+                    self.stroke(path, palette.of(*role).towards(tint, tone), width * share, ends);
+                }
             }
         }
     }

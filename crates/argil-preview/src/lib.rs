@@ -15,6 +15,7 @@ mod projection;
 mod raster;
 mod simplify;
 mod thumbnail;
+mod widths;
 
 pub use argil_strand as strand;
 pub use cleaning::{CleaningStyle, CutPlace, cleaning_html};

@@ -9,6 +9,7 @@ use crate::colour::COATS;
 use crate::markup::{Escaped, Num};
 use crate::projection::Projection;
 use crate::simplify::kept;
+use crate::widths::{SHARES, drawn_width, width_share};
 use crate::{Colour, Palette};
 
 /// Steps of light between the dark and the lit side. More are hardly told apart and make the file longer.
@@ -94,8 +95,9 @@ struct View<'a> {
     bed: (DVec2, DVec2),
 }
 
-/// What strokes of one layer share: coat and tone, the numbers that they are painted with.
-type Look = (usize, u32);
+/// What strokes of one layer share: coat and tone, the numbers that they are painted with, and the width of the bead in [`SHARES`] of the
+/// layer's.
+type Look = (usize, u32, u32);
 
 /// Path data of one layer by look, coat after coat.
 #[derive(Default)]
@@ -180,8 +182,9 @@ impl<'a> View<'a> {
             while let Some(step) = steps.next_if(|step| step.layer == k) {
                 own.push(step);
             }
-            for run in own.chunk_by(|a, b| a.role == b.role) {
-                self.add_run(run, layer.z, tolerance, &mut strokes);
+            let share = |step: &Step| width_share(step.width, layer.width);
+            for run in own.chunk_by(|a, b| a.role == b.role && share(a) == share(b)) {
+                self.add_run(run, layer, tolerance, &mut strokes);
             }
             self.draw_layer(&mut svg, k, layer, &strokes);
         }
@@ -224,9 +227,10 @@ impl<'a> View<'a> {
         0.2 / self.scale * excess * excess
     }
 
-    /// Adds the steps of a run of one role to the strokes of their look: first the rim's, then the body's.
-    fn add_run(&self, run: &[Step], plane: f64, tolerance: f64, [rims, bodies]: &mut [Strokes; 2]) {
+    /// Adds the steps of a run of one role and width to the strokes of their look: first the rim's, then the body's.
+    fn add_run(&self, run: &[Step], layer: &StrandLayer, tolerance: f64, [rims, bodies]: &mut [Strokes; 2]) {
         let Some(first) = run.first() else { return };
+        let (plane, share) = (layer.z, width_share(first.width, layer.width));
         if !(self.style.non_model || first.role.is_model()) {
             return;
         }
@@ -241,8 +245,8 @@ impl<'a> View<'a> {
         for pair in kept(&points, tolerance).windows(2) {
             let (from, to) = (points[pair[0]], points[pair[1]]);
             let tone = (self.projection.light(to - from) * TONES).round() as u32;
-            rims.line((coat, 0), whole(from), whole(to));
-            bodies.line((coat, tone), whole(from), whole(to));
+            rims.line((coat, 0, share), whole(from), whole(to));
+            bodies.line((coat, tone, share), whole(from), whole(to));
         }
     }
 
@@ -252,18 +256,24 @@ impl<'a> View<'a> {
         let count = self.strand.layers().len().max(2) - 1;
         let height = k as f64 / count as f64;
         let colour = |coat: usize| self.style.palette.of(COATS[coat]).towards(Colour::WHITE, 0.16 * height);
-        self.open_plane(svg, layer.z - 0.58 * layer.height, layer.width + 0.16 * layer.height);
-        for (&(coat, _), path) in &rims.paths {
-            let _ =
-                writeln!(svg, "<path d=\"{path}\" stroke=\"{}\"/>", colour(coat).towards(Colour::DARK, 0.52));
+        let rim = 0.16 * layer.height;
+        self.open_plane(svg, layer.z - 0.58 * layer.height, layer.width + rim);
+        for (&(coat, _, share), path) in &rims.paths {
+            let width = own_width(share, layer.width, rim);
+            let _ = writeln!(
+                svg,
+                "<path d=\"{path}\" stroke=\"{}\"{width}/>",
+                colour(coat).towards(Colour::DARK, 0.52)
+            );
         }
         svg.push_str("</g>\n");
         self.open_plane(svg, layer.z - 0.36 * layer.height, layer.width);
-        for (&(coat, tone), path) in &bodies.paths {
+        for (&(coat, tone, share), path) in &bodies.paths {
             let light = f64::from(tone) / TONES;
             let lit =
                 colour(coat).towards(Colour::DARK, 0.36 * (1.0 - light)).towards(Colour::WHITE, 0.2 * light);
-            let _ = writeln!(svg, "<path d=\"{path}\" stroke=\"{lit}\"/>");
+            let width = own_width(share, layer.width, 0.0);
+            let _ = writeln!(svg, "<path d=\"{path}\" stroke=\"{lit}\"{width}/>");
         }
         svg.push_str("</g>\n");
     }
@@ -280,6 +290,14 @@ impl<'a> View<'a> {
             Num(width * FINENESS)
         );
     }
+}
+
+/// The attribute of strokes that are not as wide as their layer's.
+fn own_width(share: u32, width: f64, rim: f64) -> String {
+    if share == SHARES {
+        return String::new();
+    }
+    format!(" stroke-width=\"{}\"", Num((drawn_width(share, width) + rim) * FINENESS))
 }
 
 /// A coordinate pair moved to a multiple of 10 mm.
