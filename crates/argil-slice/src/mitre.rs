@@ -12,8 +12,8 @@ pub(crate) const REACH: f64 = 0.56;
 const LONGEST_TIP: f64 = 0.066;
 
 /// How far before and after the corner the path leaves the wall, in w. Shorter is a sharper turn at the tip
-/// (125° at a right angle), longer leaves the wall's own corner farther aside.
-const BASE: f64 = 0.1;
+/// (129° at a right angle), longer leaves the wall's own corner farther aside.
+const BASE: f64 = 0.085;
 
 /// The path turns at least by this at a corner that gets a tip, in radians: less leaves nothing bare.
 const LEAST_TURN: f64 = 0.7;

@@ -27,6 +27,9 @@ const OVERLAP: f64 = 0.06;
 const SMOOTHING: usize = 10;
 const ASIDE: f64 = 0.05;
 
+/// So near to where a spine ends in a wall, in w, it keeps its way: what it is to meet lies aside.
+const MOUTH: f64 = 0.5;
+
 /// What is left between a spine and the boundary, in w: half a lane, and what simplification and rounding take.
 const LANE_CLEARANCE: f64 = HALF_LANE + 0.004;
 
@@ -249,13 +252,18 @@ impl Pruning {
     /// Takes out the zigzag of the chords by steps from the middle of the strip towards the neighbours' middle. Nodes stay near that place, so
     /// that bends are not cut.
     fn smooth(&mut self, sides: &SegmentIndex) {
+        let is_end = |&node: &usize| self.kept[node] && self.anchored[node];
+        let ends = (0..self.axis.nodes.len()).filter(is_end).map(|node| self.axis.nodes[node].at);
+        let ends = SegmentIndex::new(ends.map(|at| Segment::new(at, at)).collect(), self.width);
         let inner: Vec<(usize, [usize; 2], DVec2)> = (0..self.axis.nodes.len())
             .filter(|&node| self.kept[node] && !self.anchored[node])
             .filter_map(|node| {
                 let mut around = self.neighbours(node);
                 match (around.next(), around.next(), around.next()) {
                     (Some(a), Some(b), None) => {
-                        Some((node, [a, b], centred(self.axis.nodes[node].at, sides, self.width)))
+                        let at = self.axis.nodes[node].at;
+                        let is_mouth = ends.is_within(at, MOUTH * self.width);
+                        Some((node, [a, b], if is_mouth { at } else { centred(at, sides, self.width) }))
                     }
                     _ => None,
                 }

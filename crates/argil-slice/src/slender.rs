@@ -16,7 +16,7 @@ const SLENDER: f64 = 0.08;
 
 /// How much slender parts grow on every side, in w: their lanes are then twice this apart, and no farther than this from where they
 /// belong.
-const GROWTH: f64 = 0.025;
+const GROWTH: f64 = 0.02;
 
 /// Gaps up to twice this, in w, between slender parts are closed.
 const GAP: f64 = 0.5;

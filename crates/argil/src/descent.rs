@@ -17,7 +17,7 @@ use crate::foothold::{Foothold, hold_start};
 use crate::hold::{Check, Fault};
 use crate::model::ModelLayer;
 use crate::passage::Walled;
-use crate::settle::settle;
+use crate::settle::{Keeping, settle};
 use crate::stages::{Route, Smooth, Support, Tauten};
 use crate::{LayerReport, PlanError, Progress, Settings, StageTimes};
 
@@ -84,13 +84,34 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
     /// Plans all layers, the top one first; the result is bottom first. `walls` are those of the layers, `models` the loops that they
     /// are part of. Layers above the first wall from the top
     /// have nothing to print; below it, every layer has at least something to hold.
+    ///
+    /// Where starts that are kept sparingly need a long step somewhere, which is rare, the layers are planned once more with strand laid for them.
     pub(crate) fn run(
+        &mut self,
+        layers: &[Layer],
+        model: (&[ModelLayer], &[Vec<ClosedCurve>]),
+        safeguards: &[MultiPolygon<f64>],
+        observe: &mut dyn FnMut(Progress),
+    ) -> Result<Vec<PlannedLayer>, PlanError> {
+        let (planned, long) = self.descended(layers, model, safeguards, Keeping::Sparing, observe)?;
+        if long == 0 || !self.checked {
+            return Ok(planned);
+        }
+        let again =
+            self.descended(layers, model, safeguards, Keeping::Guided, &mut |_| observe(Progress::Working));
+        Ok(again.ok().filter(|again| again.1 < long).map_or(planned, |again| again.0))
+    }
+
+    /// The planned layers, and how many of them only a long step leads to.
+    fn descended(
         &mut self,
         layers: &[Layer],
         (models, walls): (&[ModelLayer], &[Vec<ClosedCurve>]),
         safeguards: &[MultiPolygon<f64>],
+        keeping: Keeping,
         observe: &mut dyn FnMut(Progress),
-    ) -> Result<Vec<PlannedLayer>, PlanError> {
+    ) -> Result<(Vec<PlannedLayer>, usize), PlanError> {
+        let mut long = 0;
         let mut planned: Vec<PlannedLayer> = Vec::with_capacity(layers.len());
         let walls_of = |k: usize| SegmentIndex::of_curves(&walls[k], self.settings.width);
         let mut start: Option<Foothold> = None;
@@ -111,14 +132,15 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
             )?;
             let below = k.checked_sub(1).map_or_else(|| SegmentIndex::new(Vec::new(), 1.0), walls_of);
             let (own, seam) = (standing.take().unwrap_or_else(|| walls_of(k)), self.settings.seaming());
-            let place = settle(&done.curve, &mut planned, start, [&own, &below], &seam);
+            let (place, is_short) = settle(&done.curve, &mut planned, start, [&own, &below], &seam, keeping);
+            long += usize::from(!is_short);
             start = Some(place);
             standing = Some(below);
             planned.push(PlannedLayer { foothold: place.arc, ..done });
             observe(Progress::Layer { index: layer.index });
         }
         planned.reverse();
-        Ok(planned)
+        Ok((planned, long))
     }
 
     /// Plans a layer; again, with the places of what is wrong kept free of attachments, where a strand would go through a wall or

@@ -56,13 +56,15 @@ impl Foothold {
 pub(crate) enum Steps {
     /// Such as hardly sag, to starts that something leads up to wherever it passes.
     Short,
+    /// The same, to starts that strand has to be laid for.
+    Guided,
     /// Any that are allowed.
     Long,
 }
 
 impl Steps {
     pub(crate) fn reach(self, seam: &SeamSettings) -> f64 {
-        let share = if self == Self::Short { SHORT } else { STEP };
+        let share = if self == Self::Long { STEP } else { SHORT };
         share * seam.reach
     }
 }
@@ -111,10 +113,12 @@ pub(crate) fn foothold(
         let start = best(&|place| !place.led && fits(place), &far)?;
         Some(Foothold { toward: toward.or_else(|| off_wall(start.at, below, seam.across)), ..start })
     };
-    let lasting = led(&|place| place.lasting).or_else(|| trapped(&|place| place.lasting));
+    let lasting = || led(&|place| place.lasting);
+    let guided = || trapped(&|place| place.lasting);
     match steps {
-        Steps::Short => led(&|place| place.start.over_wall).or(lasting),
-        Steps::Long => lasting.or_else(|| led(&|_| true)).or_else(|| trapped(&|_| true)),
+        Steps::Short => led(&|place| place.start.over_wall).or_else(lasting),
+        Steps::Guided => guided(),
+        Steps::Long => lasting().or_else(guided).or_else(|| led(&|_| true)).or_else(|| trapped(&|_| true)),
     }
 }
 

@@ -15,25 +15,38 @@ const FINE: f64 = 0.25;
 /// What a place costs that what holds it need not lead up to, in squares of the longest step.
 const SHUT: f64 = 30.0;
 
-/// The start on a cycle that was just planned. `planned` are the layers above it, top first, the lowest with the given start; their starts
-/// give way where none on the cycle leads up to it. `walls` are those of this layer and of the one below.
+/// How starts are kept where no wall leads up to them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Keeping {
+    /// The starts above give way before strand is laid for one.
+    Sparing,
+    /// Strand is laid before they give way: it gets out of where they would be caught.
+    Guided,
+}
+
+/// The start on a cycle that was just planned, and whether short steps lead there from all above. `planned` are the layers above it, top
+/// first, the lowest with the given start; their starts give way where none on the cycle leads up to it. `walls` are those of this layer and of
+/// the one below.
 pub(crate) fn settle(
     cycle: &ClosedCurve,
     planned: &mut [PlannedLayer],
     start: Option<Foothold>,
     walls: [&SegmentIndex; 2],
     seam: &SeamSettings,
-) -> Foothold {
-    let mut settled = None;
-    for steps in [Steps::Short, Steps::Long] {
-        let above = planned.last().map(|layer| &layer.curve).zip(start);
-        settled = settled.or_else(|| foothold(cycle, above, walls, seam, steps)).or_else(|| {
-            let (place, arcs) = rechained(cycle, planned, walls, seam, steps)?;
-            planned.iter_mut().rev().zip(arcs).for_each(|(layer, arc)| layer.foothold = arc);
-            Some(place)
-        });
-    }
-    settled.unwrap_or_else(|| Foothold::nearest(cycle, start))
+    keeping: Keeping,
+) -> (Foothold, bool) {
+    let above = planned.last().map(|layer| &layer.curve).zip(start);
+    let kept = |steps: Steps| foothold(cycle, above, walls, seam, steps).map(|place| (place, Vec::new()));
+    let again = |steps: Steps| rechained(cycle, planned, walls, seam, steps);
+    let short = kept(Steps::Short).or_else(|| match keeping {
+        Keeping::Sparing => again(Steps::Short).or_else(|| kept(Steps::Guided)),
+        Keeping::Guided => kept(Steps::Guided).or_else(|| again(Steps::Short)),
+    });
+    let is_short = short.is_some();
+    let settled = short.or_else(|| kept(Steps::Long)).or_else(|| again(Steps::Long));
+    let Some((place, arcs)) = settled else { return (Foothold::nearest(cycle, start), false) };
+    planned.iter_mut().rev().zip(arcs).for_each(|(layer, arc)| layer.foothold = arc);
+    (place, is_short)
 }
 
 /// A chain of starts through `cycle` and those planned above it, top first, with other starts than were kept open: where
@@ -51,7 +64,7 @@ fn rechained(
     steps: Steps,
 ) -> Option<(Foothold, Vec<f64>)> {
     let below = walls[1];
-    let free = if steps == Steps::Short { WINDOW } else { planned.len() };
+    let free = if steps == Steps::Long { planned.len() } else { WINDOW };
     let above = &planned[planned.len().saturating_sub(free + 1)..];
     let fixed =
         above.first().filter(|_| above.len() > free).map(|layer| layer.curve.point_at(layer.foothold));
@@ -60,7 +73,7 @@ fn rechained(
     let also: Vec<f64> = std::iter::once(0.0).chain(above.iter().rev().map(|layer| layer.foothold)).collect();
     // The best chain of short steps may be the only one; a few layers are searched fast.
     let (reach, spacing) = match steps {
-        Steps::Short => (steps.reach(seam), FINE * seam.spacing),
+        Steps::Short | Steps::Guided => (steps.reach(seam), FINE * seam.spacing),
         Steps::Long => (seam.reach, seam.spacing),
     };
     let held = HELD * seam.across;
@@ -149,7 +162,9 @@ mod tests {
         let corner = arc(&middle, -2.54, -1.55);
         let start = Foothold { at: middle.point_at(corner), arc: corner, over_wall: false, toward: None };
         let mut above = vec![planned(&top, arc(&top, -3.08, -0.94)), planned(&middle, corner)];
-        let settled = settle(&below, &mut above, Some(start), [&none, &none], &seam);
+        let (settled, is_short) =
+            settle(&below, &mut above, Some(start), [&none, &none], &seam, Keeping::Sparing);
+        assert!(is_short);
         let starts = [top.point_at(above[0].foothold), middle.point_at(above[1].foothold), settled.at];
         let short = Steps::Short.reach(&seam);
         assert!(starts.windows(2).all(|step| step[0].distance(step[1]) <= short), "{starts:?}");
