@@ -1,8 +1,9 @@
 //! The strand on a grid of integers, as a page carries it.
 
-use argil_strand::{DVec2, Rise, Role, Strand};
+use argil_strand::{DVec2, Move, Rise, Role, Strand};
 
 use crate::simplify::kept;
+use crate::widths::width_share;
 
 /// Grid steps along the longer side of the frame: coordinates fit into 16 bits.
 const STEPS: f64 = 65_535.0;
@@ -32,6 +33,8 @@ pub(crate) struct Outline {
     pub(crate) points: Vec<[u16; 2]>,
     /// The role of the move that ends at each point but the first, as a position in [`Role::ALL`].
     pub(crate) roles: Vec<u8>,
+    /// Where some beads are not as wide as their layer, the class of the bead of each move, as [`width_share`] tells it.
+    pub(crate) widths: Vec<u8>,
     /// Where some layer rises, for each of the points the height of its place and of the bead that ends there, in steps of `climb`.
     pub(crate) rises: Vec<[u16; 2]>,
     /// mm.
@@ -74,6 +77,8 @@ impl Outline {
         let rising = (0..strand.layers().len()).any(|k| !strand.rises(k).is_empty());
         let climb = climb(strand);
         let lies = |rise: Rise| [rise.z, rise.height].map(|value| (value / climb).round() as u16);
+        let varying = (0..strand.layers().len()).any(|k| !strand.widths(k).is_empty());
+        let mut widths = Vec::new();
         let mut rises: Vec<[u16; 2]> = strand
             .layers()
             .first()
@@ -84,14 +89,22 @@ impl Outline {
         for (position_of, layer) in strand.layers().iter().enumerate() {
             let before = roles.len();
             let mut done = 0;
-            for run in layer.moves.chunk_by(|a, b| a.role == b.role) {
-                let line: Vec<DVec2> = std::iter::once(at).chain(run.iter().map(|step| step.to)).collect();
+            let own = strand.widths(position_of);
+            let share = |k: usize| width_share(own.get(k).copied().unwrap_or(layer.width), layer.width) as u8;
+            let beads: Vec<(Move, u8)> =
+                layer.moves.iter().enumerate().map(|(k, step)| (*step, share(k))).collect();
+            for run in beads.chunk_by(|a, b| (a.0.role, a.1) == (b.0.role, b.1)) {
+                let line: Vec<DVec2> =
+                    std::iter::once(at).chain(run.iter().map(|(step, _)| step.to)).collect();
                 for k in chosen(&line, tolerance).into_iter().skip(1) {
-                    let (role, place) = (run[k - 1].role, on_grid(line[k]));
+                    let ((Move { role, .. }, share), place) = (run[k - 1], on_grid(line[k]));
                     // A step of no length on the grid is drawn by nobody, but for the rise between layers.
                     if points.last() != Some(&place) || role == Role::Seam {
                         points.push(place);
                         roles.push(position(role));
+                        if varying {
+                            widths.push(share);
+                        }
                         if rising {
                             let level = Rise { z: layer.z, height: layer.height };
                             let own = strand.rises(position_of).get(done + k - 1).copied();
@@ -105,7 +118,7 @@ impl Outline {
             let (index, z, height, width) = (layer.index, layer.z, layer.height, layer.width);
             layers.push(OutlineLayer { index, z, height, width, points: roles.len() - before });
         }
-        Self { origin, step, layers, points, roles, rises, climb, moves: 0, off: tolerance }
+        Self { origin, step, layers, points, roles, widths, rises, climb, moves: 0, off: tolerance }
     }
 }
 
@@ -180,6 +193,22 @@ mod tests {
         let radius =
             |point: &[u16; 2]| (outline.origin + DVec2::from(point.map(f64::from)) * outline.step).length();
         assert!(outline.points.iter().all(|point| (radius(point) - 20.0).abs() < 2.0 * outline.step));
+    }
+
+    #[test]
+    fn beads_of_another_width_than_their_layer_are_told_and_no_others() {
+        let strand = ring(40, 2);
+        assert!(Outline::new(&strand, 10).widths.is_empty());
+        let slender = |k: usize| if k < 20 { 1.5 } else { 1.2 };
+        let strand = strand.of_widths(vec![vec![], (0..41).map(slender).collect()]).unwrap();
+        let outline = Outline::new(&strand, 10);
+        let second = &outline.widths[outline.layers[0].points..];
+        assert!(outline.widths.len() == outline.roles.len() && outline.roles.len() < 81);
+        assert!(
+            second.contains(&20)
+                && second.contains(&16)
+                && second.iter().all(|share| [20, 16].contains(share))
+        );
     }
 
     #[test]

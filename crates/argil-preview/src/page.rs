@@ -8,6 +8,7 @@ use crate::Palette;
 use crate::base64::Base64;
 use crate::markup::{Escaped, Num};
 use crate::outline::Outline;
+use crate::widths::SHARES;
 
 /// The frame of the page, with a word in braces where each part goes.
 const FRAME: &str = include_str!("page/frame.html");
@@ -185,6 +186,9 @@ impl fmt::Display for PlanData<'_> {
             let rises: Vec<u8> =
                 outline.rises.iter().flatten().flat_map(|value| value.to_le_bytes()).collect();
             write!(f, ",\"climb\":{},\"rises\":\"{}\"", outline.climb, Base64(&rises))?;
+        }
+        if !outline.widths.is_empty() {
+            write!(f, ",\"shares\":{SHARES},\"widths\":\"{}\"", Base64(&outline.widths))?;
         }
         write!(f, ",\"points\":\"{}\",\"moveRoles\":\"{}\"}}", Base64(&points), Base64(&outline.roles))
     }

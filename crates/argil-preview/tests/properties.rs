@@ -73,6 +73,27 @@ fn beads_are_as_wide_as_they_are() {
 }
 
 #[test]
+fn beads_of_a_width_of_their_own_are_drawn_with_it() {
+    let strand = square(1).of_widths(vec![vec![2.0, 2.0, 2.0, 1.5]]).unwrap();
+    let style = SvgStyle { scale: 10.0, ..SvgStyle::default() };
+    let widths = |svg: &str| -> Vec<f64> {
+        let width = |path: Path| Some(path.stroke()?.width().get() * path.abs_transform().get_scale().0);
+        all_paths(svg).into_iter().filter_map(width).map(f64::from).collect()
+    };
+    let count =
+        |svg: &str, wanted: f64| widths(svg).iter().filter(|width| (**width - wanted).abs() < 0.01).count();
+    // One role of four is three quarters as wide.
+    let svg = layer_svg(&strand, 0, &style);
+    assert_eq!((count(&svg, 15.0), count(&svg, 20.0)), (1, 3));
+    let view = ViewStyle { bed: false, ..ViewStyle::default() };
+    let classes = |strand: &Strand| {
+        let svg = overview_svg(strand, &view);
+        svg.matches("stroke-width=").count()
+    };
+    assert_eq!(classes(&strand), classes(&square(1)) + 2, "rim and body of the one bead");
+}
+
+#[test]
 fn every_role_has_its_colour() {
     let strand = square(2);
     let palette = Palette::default();

@@ -1,8 +1,8 @@
 // Beads as a mesh: cross-sections along the strand, joined to tubes.
 //
-// A bead is as wide as its layer says and as high as its move says, with round sides. Cross-sections are mitred where the strand turns;
-// where it turns back, the bead ends round and begins anew, as it does at the ends of the strand. Where the role
-// changes there are two cross-sections, so that each side keeps its colour.
+// A bead is as wide and as high as its move says, with round sides. Cross-sections are mitred where the strand turns;
+// where it turns back, the bead ends round and begins anew, as it does at the ends of the strand. Where role or width
+// change there are two cross-sections, so that each side keeps its colour.
 
 // Cosine of the turn beyond which a bead ends and begins anew: the mitre's tip would be far out.
 const TURNS_BACK = -0.3;
@@ -92,7 +92,8 @@ class Stations {
       const across = [(left[0] - ey) * share, (left[1] + ex) * share];
       const station = this.add(k, plan.x[k], plan.y[k], plan.z[k], across);
       this.link(begin, station);
-      begin = plan.role[k] === plan.role[k + 1] ? station : this.add(k + 1, plan.x[k], plan.y[k], plan.z[k], across);
+      const goesOn = plan.role[k] === plan.role[k + 1] && plan.wide[k] === plan.wide[k + 1];
+      begin = goesOn ? station : this.add(k + 1, plan.x[k], plan.y[k], plan.z[k], across);
     }
     this.firstLink[plan.moves + 1] = this.linkCount;
   }
@@ -100,7 +101,7 @@ class Stations {
   // A round end of a move at a point: it grows from the tip at a beginning, and shrinks to it at an end.
   end(move, point, dx, dy, sense) {
     const { plan } = this;
-    const half = plan.layers[plan.layerOf[move]].width / 2;
+    const half = plan.wide[move] / 2;
     const z = plan.z[point];
     const inner = this.add(move, plan.x[point], plan.y[point], z, [-dy, dx]);
     let last = inner;
@@ -121,7 +122,7 @@ class BeadMesh {
     this.rows = section.length;
     this.stations = stations;
     const { low, high } = plan.box;
-    const margin = Math.max(...plan.layers.map((layer) => layer.width));
+    const margin = plan.widest();
     // Places are integers on a grid over the box with room for mitres and ends.
     this.origin = low.map((v) => v - margin);
     this.grid = (Math.max(...low.map((v, k) => high[k] - v)) + 2 * margin) / 65535;
@@ -133,10 +134,9 @@ class BeadMesh {
   station(s, section) {
     const { plan, values, owner } = this.stations;
     const move = owner[s];
-    const layer = plan.layers[plan.layerOf[move]];
-    const height = plan.bead[move];
-    const round = Math.min(height, layer.width) / 2;
-    const flat = layer.width / 2 - round;
+    const [width, height] = [plan.wide[move], plan.bead[move]];
+    const round = Math.min(height, width) / 2;
+    const flat = width / 2 - round;
     const [x, y, z, ax, ay] = values.subarray(5 * s, 5 * s + 5);
     section.forEach(([angle, side], row) => {
       const [sin, cos] = [Math.sin(angle * Math.PI), Math.cos(angle * Math.PI)];

@@ -53,10 +53,10 @@ class Colours {
     return Math.hypot(xs[k - 1] + t * dx - x, ys[k - 1] + t * dy - y);
   }
 
-  // Paste in mm³/s along a move: a bead with round sides at the layer's speed.
+  // Paste in mm³/s along a move: its bead, with round sides, at the layer's speed.
   flow(move) {
-    const { width, speed } = this.plan.layers[this.plan.layerOf[move]];
-    const height = this.plan.bead[move];
+    const { speed } = this.plan.layers[this.plan.layerOf[move]];
+    const [width, height] = [this.plan.wide[move], this.plan.bead[move]];
     const area = width > height ? height * (width - height) + Math.PI * height * height / 4
       : Math.PI * width * width / 4;
     return area * speed;

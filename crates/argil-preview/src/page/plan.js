@@ -26,6 +26,7 @@ class Plan {
     this.y = new Float32Array(count);
     this.z = new Float32Array(count);
     this.bead = new Float32Array(count); // the height of the bead of each move
+    this.wide = new Float32Array(count); // and its width
     for (let k = 0; k < count; k++) {
       this.x[k] = data.origin[0] + data.step * grid.getUint16(4 * k, true);
       this.y[k] = data.origin[1] + data.step * grid.getUint16(4 * k + 2, true);
@@ -43,6 +44,7 @@ class Plan {
       this.layerOf.fill(this.layers.length, layer.first, layer.last + 1);
       this.z.fill(z, layer.first, layer.last + 1);
       this.bead.fill(height, layer.first, layer.last + 1);
+      this.wide.fill(width, layer.first, layer.last + 1);
       this.layers.push(layer);
       last = layer.last;
     }
@@ -53,6 +55,9 @@ class Plan {
         this.z[k] = data.climb * rises.getUint16(4 * k, true);
         this.bead[k] = data.climb * rises.getUint16(4 * k + 2, true);
       }
+    }
+    if (data.widths) {
+      bytesOf(data.widths).forEach((share, k) => { this.wide[k + 1] *= share / data.shares; });
     }
     this.length = new Float64Array(count);
     this.time = new Float64Array(count);
@@ -71,7 +76,7 @@ class Plan {
   // The box round all beads.
   frame() {
     const low = [Infinity, Infinity, 0], high = [-Infinity, -Infinity, 0];
-    const half = Math.max(...this.layers.map((layer) => layer.width)) / 2;
+    const half = this.widest() / 2;
     for (let k = 0; k <= this.moves; k++) {
       low[0] = Math.min(low[0], this.x[k] - half);
       low[1] = Math.min(low[1], this.y[k] - half);
@@ -81,6 +86,10 @@ class Plan {
     low[2] = Math.min(0, this.layers[0].z - this.layers[0].height);
     high[2] = this.layers[this.layers.length - 1].z;
     return { low, high, middle: low.map((v, k) => (v + high[k]) / 2) };
+  }
+
+  widest() {
+    return this.wide.reduce((widest, width) => Math.max(widest, width), 0);
   }
 
   // Where the strand is at a place.

@@ -67,14 +67,18 @@ class RasterView {
   beads() {
     const sizes = new Map();
     this.sizes = [];
-    this.sizeOf = this.plan.layers.map(({ width, height }) => {
-      const name = `${width} ${height}`;
-      if (!sizes.has(name)) {
-        sizes.set(name, this.sizes.length);
-        this.sizes.push({ width, height });
+    this.sizeOf = new Uint16Array(this.plan.moves + 1);
+    for (const { height, first, last } of this.plan.layers) {
+      for (let k = first; k <= last; k++) {
+        const width = this.plan.wide[k];
+        const name = `${width} ${height}`;
+        if (!sizes.has(name)) {
+          sizes.set(name, this.sizes.length);
+          this.sizes.push({ width, height });
+        }
+        this.sizeOf[k] = sizes.get(name);
       }
-      return sizes.get(name);
-    });
+    }
   }
 
   colour(tones, table) {
@@ -114,11 +118,16 @@ class RasterView {
     const [low, high] = [plan.layerAt(first), plan.layerAt(last)];
     for (let step = 0; step <= high - low && last >= first; step++) {
       const k = camera.elevation >= 0 ? high - step : low + step;
-      const size = this.sizeOf[k];
-      const { width: wide, height: tall } = this.sizes[size];
-      tables[size] ??= new BeadTables(wide, tall, scale, axes, light);
       const layer = plan.layers[k];
-      this.layer(tables[size], Math.max(first, layer.first), Math.min(last, layer.last), last);
+      const end = Math.min(last, layer.last);
+      for (let begin = Math.max(first, layer.first), next; begin <= end; begin = next) {
+        const size = this.sizeOf[begin];
+        next = begin + 1;
+        while (next <= end && this.sizeOf[next] === size) next++;
+        const { width: wide, height: tall } = this.sizes[size];
+        tables[size] ??= new BeadTables(wide, tall, scale, axes, light);
+        this.layer(tables[size], begin, next - 1, last);
+      }
     }
     this.context.putImageData(this.image, 0, 0);
     return Math.max(0, last - first + 1);
