@@ -35,11 +35,14 @@ pub(crate) struct PlannedLayer {
     pub(crate) foothold: f64,
 }
 
+/// So many layers are planned once more where no short step leads on.
+const AGAIN: usize = 12;
+
 /// What is wrong with a layer, and where.
 type Flaw = (LayerFault, Option<DVec2>);
 
 /// How often a layer is planned again with the places of what is wrong barred.
-const RETRIES: usize = 3;
+const RETRIES: usize = 6;
 
 /// How often sharp turns are cut: a cut may leave two that are sharp themselves, or not hold what the turn held and be given up.
 const BLUNTINGS: usize = 6;
@@ -85,39 +88,25 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
     /// are part of. Layers above the first wall from the top
     /// have nothing to print; below it, every layer has at least something to hold.
     ///
-    /// Where starts that are kept sparingly need a long step somewhere, which is rare, the layers are planned once more with strand laid for them.
+    /// Where no short step leads on from starts that are kept sparingly, which is rare, a few layers are planned once more with strand laid for theirs.
     pub(crate) fn run(
-        &mut self,
-        layers: &[Layer],
-        model: (&[ModelLayer], &[Vec<ClosedCurve>]),
-        safeguards: &[MultiPolygon<f64>],
-        observe: &mut dyn FnMut(Progress),
-    ) -> Result<Vec<PlannedLayer>, PlanError> {
-        let (planned, long) = self.descended(layers, model, safeguards, Keeping::Sparing, observe)?;
-        if long == 0 || !self.checked {
-            return Ok(planned);
-        }
-        let again =
-            self.descended(layers, model, safeguards, Keeping::Guided, &mut |_| observe(Progress::Working));
-        Ok(again.ok().filter(|again| again.1 < long).map_or(planned, |again| again.0))
-    }
-
-    /// The planned layers, and how many of them only a long step leads to.
-    fn descended(
         &mut self,
         layers: &[Layer],
         (models, walls): (&[ModelLayer], &[Vec<ClosedCurve>]),
         safeguards: &[MultiPolygon<f64>],
-        keeping: Keeping,
         observe: &mut dyn FnMut(Progress),
-    ) -> Result<(Vec<PlannedLayer>, usize), PlanError> {
-        let mut long = 0;
+    ) -> Result<Vec<PlannedLayer>, PlanError> {
         let mut planned: Vec<PlannedLayer> = Vec::with_capacity(layers.len());
         let walls_of = |k: usize| SegmentIndex::of_curves(&walls[k], self.settings.width);
         let mut start: Option<Foothold> = None;
         // What is below one layer are the walls of the next.
         let mut standing: Option<SegmentIndex> = None;
-        for (k, (layer, safeguard)) in layers.iter().zip(safeguards).enumerate().rev() {
+        // Down to this layer starts are guided, by the strand that is laid for them.
+        let mut guided = usize::MAX;
+        let mut next = layers.len().min(safeguards.len());
+        while let Some(k) = next.checked_sub(1) {
+            next = k;
+            let (layer, safeguard) = (&layers[k], &safeguards[k]);
             let above = planned.last().map(|p| &p.curve);
             if above.is_none() && layer.walls.is_empty() {
                 continue;
@@ -132,15 +121,24 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
             )?;
             let below = k.checked_sub(1).map_or_else(|| SegmentIndex::new(Vec::new(), 1.0), walls_of);
             let (own, seam) = (standing.take().unwrap_or_else(|| walls_of(k)), self.settings.seaming());
-            let (place, is_short) = settle(&done.curve, &mut planned, start, [&own, &below], &seam, keeping);
-            long += usize::from(!is_short);
-            start = Some(place);
+            let keeping = if k >= guided { Keeping::Guided } else { Keeping::Sparing };
+            let settled = settle(&done.curve, &planned, start, [&own, &below], &seam, keeping);
+            if !settled.is_short && keeping == Keeping::Sparing && self.checked {
+                let again = planned.len().min(AGAIN);
+                planned.truncate(planned.len() - again);
+                (guided, next) = (k, k + again + 1);
+                start = planned.last().map(Foothold::kept);
+                continue;
+            }
+            planned.iter_mut().rev().zip(settled.above).for_each(|(layer, arc)| layer.foothold = arc);
+            start = Some(settled.start);
             standing = Some(below);
-            planned.push(PlannedLayer { foothold: place.arc, ..done });
-            observe(Progress::Layer { index: layer.index });
+            planned.push(PlannedLayer { foothold: settled.start.arc, ..done });
+            let is_known = guided < k && k <= guided.saturating_add(AGAIN);
+            observe(if is_known { Progress::Working } else { Progress::Layer { index: layer.index } });
         }
         planned.reverse();
-        Ok((planned, long))
+        Ok(planned)
     }
 
     /// Plans a layer; again, with the places of what is wrong kept free of attachments, where a strand would go through a wall or

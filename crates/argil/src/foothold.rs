@@ -10,6 +10,7 @@ use argil_seam::{SeamSettings, is_clear};
 use argil_support::SupportPoint;
 
 use crate::Settings;
+use crate::descent::PlannedLayer;
 
 /// Share of the longest step that is used, so that starts on the seam stage's own spacing reach each other too.
 const STEP: f64 = 0.85;
@@ -44,6 +45,12 @@ pub(crate) struct Foothold {
 }
 
 impl Foothold {
+    /// The start of a planned layer, of which no more is known than its place.
+    pub(crate) fn kept(layer: &PlannedLayer) -> Self {
+        let arc = layer.foothold;
+        Self { at: layer.curve.point_at(arc), arc, over_wall: false, toward: None }
+    }
+
     /// The place on a cycle that is nearest to the start above: what there is where nothing leads up to that.
     pub(crate) fn nearest(cycle: &ClosedCurve, above: Option<Self>) -> Self {
         let arc = above.map_or(0.0, |start| cycle.nearest(start.at).s);

@@ -24,17 +24,25 @@ pub(crate) enum Keeping {
     Guided,
 }
 
-/// The start on a cycle that was just planned, and whether short steps lead there from all above. `planned` are the layers above it, top
-/// first, the lowest with the given start; their starts give way where none on the cycle leads up to it. `walls` are those of this layer and of
-/// the one below.
+/// Where a cycle may begin that was just planned.
+pub(crate) struct Settled {
+    pub(crate) start: Foothold,
+    /// Where those above give way to, arcs along their cycles, bottom first; the others stay.
+    pub(crate) above: Vec<f64>,
+    /// Whether short steps lead from all above to the start.
+    pub(crate) is_short: bool,
+}
+
+/// The start on a cycle that was just planned. `planned` are the layers above it, top first, the lowest with the given start; their starts
+/// give way where none on the cycle leads up to it. `walls` are those of this layer and of the one below.
 pub(crate) fn settle(
     cycle: &ClosedCurve,
-    planned: &mut [PlannedLayer],
+    planned: &[PlannedLayer],
     start: Option<Foothold>,
     walls: [&SegmentIndex; 2],
     seam: &SeamSettings,
     keeping: Keeping,
-) -> (Foothold, bool) {
+) -> Settled {
     let above = planned.last().map(|layer| &layer.curve).zip(start);
     let kept = |steps: Steps| foothold(cycle, above, walls, seam, steps).map(|place| (place, Vec::new()));
     let again = |steps: Steps| rechained(cycle, planned, walls, seam, steps);
@@ -44,9 +52,8 @@ pub(crate) fn settle(
     });
     let is_short = short.is_some();
     let settled = short.or_else(|| kept(Steps::Long)).or_else(|| again(Steps::Long));
-    let Some((place, arcs)) = settled else { return (Foothold::nearest(cycle, start), false) };
-    planned.iter_mut().rev().zip(arcs).for_each(|(layer, arc)| layer.foothold = arc);
-    (place, is_short)
+    let (start, above) = settled.unwrap_or_else(|| (Foothold::nearest(cycle, start), Vec::new()));
+    Settled { start, above, is_short }
 }
 
 /// A chain of starts through `cycle` and those planned above it, top first, with other starts than were kept open: where
@@ -162,10 +169,10 @@ mod tests {
         let corner = arc(&middle, -2.54, -1.55);
         let start = Foothold { at: middle.point_at(corner), arc: corner, over_wall: false, toward: None };
         let mut above = vec![planned(&top, arc(&top, -3.08, -0.94)), planned(&middle, corner)];
-        let (settled, is_short) =
-            settle(&below, &mut above, Some(start), [&none, &none], &seam, Keeping::Sparing);
-        assert!(is_short);
-        let starts = [top.point_at(above[0].foothold), middle.point_at(above[1].foothold), settled.at];
+        let settled = settle(&below, &above, Some(start), [&none, &none], &seam, Keeping::Sparing);
+        assert!(settled.is_short);
+        above.iter_mut().rev().zip(&settled.above).for_each(|(layer, &arc)| layer.foothold = arc);
+        let starts = [top.point_at(above[0].foothold), middle.point_at(above[1].foothold), settled.start.at];
         let short = Steps::Short.reach(&seam);
         assert!(starts.windows(2).all(|step| step[0].distance(step[1]) <= short), "{starts:?}");
         assert!(starts[1].distance(start.at) > 0.1, "{starts:?}");
