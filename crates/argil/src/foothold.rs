@@ -63,7 +63,9 @@ impl Foothold {
 pub(crate) enum Steps {
     /// Such as hardly sag, to starts that something leads up to wherever it passes.
     Short,
-    /// The same, to starts that strand has to be laid for.
+    /// Short ones to starts on walls, or any to starts that something leads up to.
+    Led,
+    /// Short ones, to starts that strand has to be laid for.
     Guided,
     /// Any that are allowed.
     Long,
@@ -71,7 +73,7 @@ pub(crate) enum Steps {
 
 impl Steps {
     pub(crate) fn reach(self, seam: &SeamSettings) -> f64 {
-        let share = if self == Self::Long { STEP } else { SHORT };
+        let share = if matches!(self, Self::Long | Self::Led) { STEP } else { SHORT };
         share * seam.reach
     }
 }
@@ -124,6 +126,10 @@ pub(crate) fn foothold(
     let guided = || trapped(&|place| place.lasting);
     match steps {
         Steps::Short => led(&|place| place.start.over_wall).or_else(lasting),
+        Steps::Led => {
+            let short = Steps::Short.reach(seam);
+            led(&|place| place.start.over_wall && place.step <= short).or_else(lasting)
+        }
         Steps::Guided => guided(),
         Steps::Long => lasting().or_else(guided).or_else(|| led(&|_| true)).or_else(|| trapped(&|_| true)),
     }

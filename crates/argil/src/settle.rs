@@ -29,7 +29,7 @@ pub(crate) struct Settled {
     pub(crate) start: Foothold,
     /// Where those above give way to, arcs along their cycles, bottom first; the others stay.
     pub(crate) above: Vec<f64>,
-    /// Whether short steps lead from all above to the start.
+    /// Whether no more than a short step, or one to a start that something leads up to, is needed.
     pub(crate) is_short: bool,
 }
 
@@ -46,10 +46,10 @@ pub(crate) fn settle(
     let above = planned.last().map(|layer| &layer.curve).zip(start);
     let kept = |steps: Steps| foothold(cycle, above, walls, seam, steps).map(|place| (place, Vec::new()));
     let again = |steps: Steps| rechained(cycle, planned, walls, seam, steps);
-    let short = kept(Steps::Short).or_else(|| match keeping {
-        Keeping::Sparing => again(Steps::Short).or_else(|| kept(Steps::Guided)),
-        Keeping::Guided => kept(Steps::Guided).or_else(|| again(Steps::Short)),
-    });
+    let short = match keeping {
+        Keeping::Sparing => kept(Steps::Led).or_else(|| again(Steps::Short)).or_else(|| kept(Steps::Guided)),
+        Keeping::Guided => kept(Steps::Short).or_else(|| kept(Steps::Guided)).or_else(|| again(Steps::Short)),
+    };
     let is_short = short.is_some();
     let settled = short.or_else(|| kept(Steps::Long)).or_else(|| again(Steps::Long));
     let (start, above) = settled.unwrap_or_else(|| (Foothold::nearest(cycle, start), Vec::new()));
@@ -80,7 +80,7 @@ fn rechained(
     let also: Vec<f64> = std::iter::once(0.0).chain(above.iter().rev().map(|layer| layer.foothold)).collect();
     // The best chain of short steps may be the only one; a few layers are searched fast.
     let (reach, spacing) = match steps {
-        Steps::Short | Steps::Guided => (steps.reach(seam), FINE * seam.spacing),
+        Steps::Short | Steps::Guided | Steps::Led => (steps.reach(seam), FINE * seam.spacing),
         Steps::Long => (seam.reach, seam.spacing),
     };
     let held = HELD * seam.across;
