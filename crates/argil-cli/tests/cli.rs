@@ -190,8 +190,14 @@ fn a_file_is_audited_by_the_bead_that_it_states() {
     let bead = ["--layer-height", "0.7", "--walls", "2"];
     ends(&folder, DONE, &[&["plan", "-o", "out.gcode"], &QUICK[..], &bead].concat());
     let audit = ["audit", "out.gcode", "--model", "sample:columns"];
-    ends(&folder, DONE, &audit);
-    ends(&folder, FINDINGS, &[&audit[..], &["--layer-height", "0.5"]].concat());
+    let said = |status, more: &[&str]| {
+        let output = ends(&folder, status, &[&audit[..], more].concat());
+        String::from_utf8_lossy(&output.stdout).into_owned() + &stderr(&output)
+    };
+    let stated = said(DONE, &[]);
+    assert!(stated.contains("sound") && !stated.contains("limit"), "{stated}");
+    let other = said(FINDINGS, &["--layer-height", "0.5"]);
+    assert!(other.contains("limit"), "{other}");
 }
 
 #[test]

@@ -247,8 +247,10 @@ fn any_style_gives_an_svg() {
                     4 => view.size = odd,
                     _ => view.most_points = 0,
                 }
-                parse(&layer_svg(&strand, 1, &style));
-                parse(&overview_svg(&strand, &view));
+                for svg in [layer_svg(&strand, 1, &style), overview_svg(&strand, &view)] {
+                    let size = parse(&svg).size();
+                    assert!(size.width() > 0.0 && size.height() > 0.0, "{odd} as {which} at {stretch}");
+                }
             }
         }
     }

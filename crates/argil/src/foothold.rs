@@ -61,13 +61,13 @@ impl Foothold {
 /// What steps are asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Steps {
-    /// Such as hardly sag, to starts that something leads up to wherever it passes.
+    /// Short ones, to starts that something leads up to wherever it passes.
     Short,
-    /// Short ones to starts on walls, or any to starts that something leads up to.
+    /// Short ones to starts on walls, or else any that are allowed to starts that something leads up to.
     Led,
     /// Short ones, to starts that strand has to be laid for.
     Guided,
-    /// Any that are allowed.
+    /// Any that are allowed, to any start.
     Long,
 }
 
@@ -125,7 +125,7 @@ pub(crate) fn foothold(
     let lasting = || led(&|place| place.lasting);
     let guided = || trapped(&|place| place.lasting);
     match steps {
-        Steps::Short => led(&|place| place.start.over_wall).or_else(lasting),
+        Steps::Short => lasting(),
         Steps::Led => {
             let short = Steps::Short.reach(seam);
             led(&|place| place.start.over_wall && place.step <= short).or_else(lasting)

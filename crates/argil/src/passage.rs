@@ -13,7 +13,8 @@ const BESIDE: f64 = 1.0 / 12.0;
 /// Least length along the wall between one side and the other, in w.
 const ALONG: f64 = 1.05;
 
-/// Spacing of the samples, in w. Less than twice [`BESIDE`], so that no change of sides is missed.
+/// Spacing of the samples, in w: a third of twice [`BESIDE`], so that strand cannot pass a side between two, nor dip to it and back
+/// for much longer than this unseen.
 const STEP: f64 = 0.05;
 
 /// Samples of a path at most.
@@ -60,10 +61,10 @@ impl Walled {
         }
         let spacing = (STEP * self.width).max(path.length() / MOST_SAMPLES);
         let samples = path.resampled(spacing);
-        let on_wall = self.on_wall(&samples, path.length() / samples.len() as f64);
+        let (count, step) = (samples.len(), path.length() / samples.len() as f64);
+        let on_wall = self.on_wall(&samples, step);
         // Once round, from free strand to the same: what begins beside the wall would have no side to come from.
         let Some(first) = on_wall.iter().position(|on| !on) else { return Vec::new() };
-        let (count, step) = (samples.len(), path.length() / samples.len() as f64);
         let mut found = Vec::new();
         // The side that the path was on before it met the wall, and how long it has run along the wall since.
         let (mut side, mut run) = (self.contains(samples[first]), 0.0);

@@ -45,13 +45,13 @@ pub(crate) fn settle(
 ) -> Settled {
     let above = planned.last().map(|layer| &layer.curve).zip(start);
     let kept = |steps: Steps| foothold(cycle, above, walls, seam, steps).map(|place| (place, Vec::new()));
-    let again = |steps: Steps| rechained(cycle, planned, walls, seam, steps);
+    let again = |is_short: bool| rechained(cycle, planned, walls, seam, is_short);
     let short = match keeping {
-        Keeping::Sparing => kept(Steps::Led).or_else(|| again(Steps::Short)).or_else(|| kept(Steps::Guided)),
-        Keeping::Guided => kept(Steps::Short).or_else(|| kept(Steps::Guided)).or_else(|| again(Steps::Short)),
+        Keeping::Sparing => kept(Steps::Led).or_else(|| again(true)).or_else(|| kept(Steps::Guided)),
+        Keeping::Guided => kept(Steps::Short).or_else(|| kept(Steps::Guided)).or_else(|| again(true)),
     };
     let is_short = short.is_some();
-    let settled = short.or_else(|| kept(Steps::Long)).or_else(|| again(Steps::Long));
+    let settled = short.or_else(|| kept(Steps::Long)).or_else(|| again(false));
     let (start, above) = settled.unwrap_or_else(|| (Foothold::nearest(cycle, start), Vec::new()));
     Settled { start, above, is_short }
 }
@@ -68,10 +68,10 @@ fn rechained(
     planned: &[PlannedLayer],
     walls: [&SegmentIndex; 2],
     seam: &SeamSettings,
-    steps: Steps,
+    is_short: bool,
 ) -> Option<(Foothold, Vec<f64>)> {
     let below = walls[1];
-    let free = if steps == Steps::Long { planned.len() } else { WINDOW };
+    let free = if is_short { WINDOW } else { planned.len() };
     let above = &planned[planned.len().saturating_sub(free + 1)..];
     let fixed =
         above.first().filter(|_| above.len() > free).map(|layer| layer.curve.point_at(layer.foothold));
@@ -79,10 +79,8 @@ fn rechained(
         std::iter::once(cycle).chain(above.iter().rev().map(|layer| &layer.curve)).cloned().collect();
     let also: Vec<f64> = std::iter::once(0.0).chain(above.iter().rev().map(|layer| layer.foothold)).collect();
     // The best chain of short steps may be the only one; a few layers are searched fast.
-    let (reach, spacing) = match steps {
-        Steps::Short | Steps::Guided | Steps::Led => (steps.reach(seam), FINE * seam.spacing),
-        Steps::Long => (seam.reach, seam.spacing),
-    };
+    let (reach, spacing) =
+        if is_short { (Steps::Short.reach(seam), FINE * seam.spacing) } else { (seam.reach, seam.spacing) };
     let held = HELD * seam.across;
     let hanging = |p: DVec2| below.nearest(p).map_or(0.0, |wall| (wall.distance - held).max(0.0));
     let shut = SHUT * seam.reach.powi(2);
@@ -152,7 +150,7 @@ mod tests {
         let start = Foothold { at: hidden.point, arc: hidden.s, over_wall: false, toward: None };
         assert_eq!(foothold(&below, Some((&above, start)), [&none, &none], &seam, Steps::Long), None);
         let (start, arcs) =
-            rechained(&below, &[planned(&above, hidden.s)], [&none, &none], &seam, Steps::Long).unwrap();
+            rechained(&below, &[planned(&above, hidden.s)], [&none, &none], &seam, false).unwrap();
         let step = Segment::new(start.at, above.point_at(arcs[0]));
         assert!(step.length() <= seam.reach && is_clear(&step, arcs[0], &above));
     }

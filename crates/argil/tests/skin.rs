@@ -78,12 +78,21 @@ fn a_table_is_closed_above_and_below() {
 
 #[test]
 fn what_hangs_free_gets_an_underside() {
-    planned("hanging-island", &closed(1.5, 1, 2));
+    let plan = planned("hanging-island", &closed(1.5, 1, 2));
+    let filled: Vec<usize> = plan.layers.iter().filter(|l| l.fill_length > 0.0).map(|l| l.index).collect();
+    // Its underside is two layers thick, and begins over layers that are open.
+    let begins = |k: &usize| *k > 2 && !filled.contains(&(k - 1)) && filled.contains(&(k + 1));
+    assert!(filled.iter().any(begins), "{filled:?}");
 }
 
 #[test]
 fn two_walls_and_a_skin_are_one_strand() {
-    planned("columns", &Settings { walls: 2, ..closed(1.5, 2, 2) });
+    let settings = Settings { walls: 2, ..closed(1.5, 2, 2) };
+    let plan = planned("columns", &settings);
+    // Two columns of two walls each, with a floor of two layers.
+    assert!(plan.layers.iter().take(50).all(|layer| layer.walls == 4));
+    let filled: Vec<usize> = plan.layers.iter().filter(|l| l.fill_length > 0.0).map(|l| l.index).collect();
+    assert_eq!(filled, [0, 1]);
 }
 
 #[test]
