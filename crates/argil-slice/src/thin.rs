@@ -38,13 +38,11 @@ pub(crate) fn with_spines(
     let mut joined = walls.union(&swept(spines, HALF_LANE * width));
     let lines = spines.iter().flat_map(|spine| spine.windows(2));
     let lines = SegmentIndex::new(lines.map(|pair| Segment::new(pair[0], pair[1])).collect(), width);
-    let farthest = |polygon: &Polygon<f64>| {
-        let distances = ring_points(polygon.exterior()).into_iter().map(|p| lines.distance(p));
-        distances.fold(0.0, f64::max)
+    let is_beside = |polygon: &Polygon<f64>, reach: f64| {
+        ring_points(polygon.exterior()).iter().all(|&p| lines.is_within(p, reach * width))
     };
-    joined.0.retain(|polygon| has_spine(polygon, spines) || farthest(polygon) > SAME * width);
-    let is_speck =
-        |polygon: &&Polygon<f64>| !has_spine(polygon, spines) && farthest(polygon) <= SPECK * width;
+    joined.0.retain(|polygon| !is_beside(polygon, SAME) || has_spine(polygon, spines));
+    let is_speck = |polygon: &&Polygon<f64>| is_beside(polygon, SPECK) && !has_spine(polygon, spines);
     let ties: Vec<Vec<DVec2>> =
         joined.iter().filter(is_speck).filter_map(|speck| tie(speck, &lines, width)).collect();
     if !ties.is_empty() {
