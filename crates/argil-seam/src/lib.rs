@@ -16,4 +16,4 @@ pub use argil_curve::{ClosedCurve, DVec2, Segment};
 pub use chain::{SeamSettings, seam_chain, seam_chain_among};
 pub use error::SeamError;
 pub use nearest::nearest_chain;
-pub use step::is_clear;
+pub use step::{is_clear, shut_directions};

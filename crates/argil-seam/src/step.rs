@@ -49,14 +49,46 @@ pub fn is_clear(step: &Segment, s: f64, cycle: &ClosedCurve) -> bool {
     let low = step.start.min(step.end) - TOUCH;
     let high = step.start.max(step.end) + TOUCH;
     step.length() <= ON_STRAND
-        || !cycle.segments().enumerate().any(|(k, strand)| {
-            let beside = strand.start.min(strand.end).cmpgt(high).any()
-                || strand.start.max(strand.end).cmplt(low).any();
-            !beside && blocks(step, s, cycle, k, &strand)
-        })
+        || !cycle
+            .segments()
+            .enumerate()
+            .any(|(k, strand)| !is_beside(&strand, low, high) && blocks(step, s, cycle, k, &strand))
 }
 
-/// The same by an index over the segments of `cycle`, in order.
+/// From how many of `directions`, evenly spread, no clear step of length `reach` ends on `cycle` at arc length `s`.
+///
+/// # Complexity
+/// O(n + directions k) for n segments, of which k lie within `reach`.
+///
+/// # Example
+/// ```
+/// use argil_seam::{ClosedCurve, DVec2, shut_directions};
+/// let square = [(0.0, 0.0), (9.0, 0.0), (9.0, 9.0), (0.0, 9.0)].map(DVec2::from).to_vec();
+/// let cycle = ClosedCurve::new(square)?;
+/// assert_eq!(shut_directions(&cycle, 4.0, 0.5, 16), 0); // nothing else is near
+/// assert!(shut_directions(&cycle, 4.0, 10.0, 16) > 0); // from beyond the upper side
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn shut_directions(cycle: &ClosedCurve, s: f64, reach: f64, directions: usize) -> usize {
+    let end = cycle.point_at(s);
+    let (low, high) = (end - reach - TOUCH, end + reach + TOUCH);
+    let near: Vec<(usize, Segment)> =
+        cycle.segments().enumerate().filter(|(_, strand)| !is_beside(strand, low, high)).collect();
+    let is_shut = |k: &usize| {
+        let turn = std::f64::consts::TAU * *k as f64 / directions as f64;
+        let step = Segment::new(end + reach * DVec2::from_angle(turn), end);
+        step.length() > ON_STRAND && near.iter().any(|(k, strand)| blocks(&step, s, cycle, *k, strand))
+    };
+    (0..directions).filter(is_shut).count()
+}
+
+/// Whether a segment lies beside a box.
+fn is_beside(strand: &Segment, low: DVec2, high: DVec2) -> bool {
+    strand.start.min(strand.end).cmpgt(high).any() || strand.start.max(strand.end).cmplt(low).any()
+}
+
+/// [`is_clear`] by an index over the segments of `cycle`, in order.
 pub(crate) fn is_clear_by(index: &SegmentIndex, step: &Segment, s: f64, cycle: &ClosedCurve) -> bool {
     let mut clear = true;
     if step.length() > ON_STRAND {

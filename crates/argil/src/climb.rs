@@ -18,6 +18,14 @@ pub(crate) struct Climbed {
     pub(crate) skirt: Option<SkirtLaid>,
 }
 
+impl Climbed {
+    /// How far the strand goes from the end of one layer to the start of the next at most, mm in the plane.
+    pub(crate) fn longest_step(&self) -> f64 {
+        let steps = self.strand.steps().filter(|step| step.role == Role::Seam);
+        steps.map(|step| step.from.truncate().distance(step.to.truncate())).fold(0.0, f64::max)
+    }
+}
+
 /// Joins the cycles, planned for these slices, by a chain of starts, with skirt and spiral as asked for. Where they are not `checked`, the starts stay where
 /// the seam stage wants them.
 pub(crate) fn climbed(

@@ -35,9 +35,6 @@ pub(crate) struct PlannedLayer {
     pub(crate) foothold: f64,
 }
 
-/// So many layers are planned once more where no short step leads on.
-const AGAIN: usize = 12;
-
 /// What is wrong with a layer, and where.
 type Flaw = (LayerFault, Option<DVec2>);
 
@@ -81,14 +78,13 @@ pub(crate) struct Descent<'a, U, R, E, T> {
     pub(crate) times: &'a mut StageTimes,
     /// Whether every layer must pass the exact check.
     pub(crate) checked: bool,
+    pub(crate) keeping: Keeping,
 }
 
 impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
     /// Plans all layers, the top one first; the result is bottom first. `walls` are those of the layers, `models` the loops that they
     /// are part of. Layers above the first wall from the top
     /// have nothing to print; below it, every layer has at least something to hold.
-    ///
-    /// Where no short step leads on from starts that are kept sparingly, which is rare, a few layers are planned once more with strand laid for theirs.
     pub(crate) fn run(
         &mut self,
         layers: &[Layer],
@@ -101,12 +97,7 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
         let mut start: Option<Foothold> = None;
         // What is below one layer are the walls of the next.
         let mut standing: Option<SegmentIndex> = None;
-        // Down to this layer starts are guided, by the strand that is laid for them.
-        let mut guided = usize::MAX;
-        let mut next = layers.len().min(safeguards.len());
-        while let Some(k) = next.checked_sub(1) {
-            next = k;
-            let (layer, safeguard) = (&layers[k], &safeguards[k]);
+        for (k, (layer, safeguard)) in layers.iter().zip(safeguards).enumerate().rev() {
             let above = planned.last().map(|p| &p.curve);
             if above.is_none() && layer.walls.is_empty() {
                 continue;
@@ -121,21 +112,12 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
             )?;
             let below = k.checked_sub(1).map_or_else(|| SegmentIndex::new(Vec::new(), 1.0), walls_of);
             let (own, seam) = (standing.take().unwrap_or_else(|| walls_of(k)), self.settings.seaming());
-            let keeping = if k >= guided { Keeping::Guided } else { Keeping::Sparing };
-            let settled = settle(&done.curve, &planned, start, [&own, &below], &seam, keeping);
-            if !settled.is_short && keeping == Keeping::Sparing && self.checked {
-                let again = planned.len().min(AGAIN);
-                planned.truncate(planned.len() - again);
-                (guided, next) = (k, k + again + 1);
-                start = planned.last().map(Foothold::kept);
-                continue;
-            }
+            let settled = settle(&done.curve, &planned, start, [&own, &below], &seam, self.keeping);
             planned.iter_mut().rev().zip(settled.above).for_each(|(layer, arc)| layer.foothold = arc);
             start = Some(settled.start);
             standing = Some(below);
             planned.push(PlannedLayer { foothold: settled.start.arc, ..done });
-            let is_known = guided < k && k <= guided.saturating_add(AGAIN);
-            observe(if is_known { Progress::Working } else { Progress::Layer { index: layer.index } });
+            observe(Progress::Layer { index: layer.index });
         }
         planned.reverse();
         Ok(planned)

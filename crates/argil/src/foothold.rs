@@ -6,11 +6,10 @@
 //! asked to hold it. On walls that stand on walls this costs nothing. The seam stage is free to find a better chain.
 
 use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex};
-use argil_seam::{SeamSettings, is_clear};
+use argil_seam::{SeamSettings, is_clear, shut_directions};
 use argil_support::SupportPoint;
 
 use crate::Settings;
-use crate::descent::PlannedLayer;
 
 /// Share of the longest step that is used, so that starts on the seam stage's own spacing reach each other too.
 const STEP: f64 = 0.85;
@@ -45,12 +44,6 @@ pub(crate) struct Foothold {
 }
 
 impl Foothold {
-    /// The start of a planned layer, of which no more is known than its place.
-    pub(crate) fn kept(layer: &PlannedLayer) -> Self {
-        let arc = layer.foothold;
-        Self { at: layer.curve.point_at(arc), arc, over_wall: false, toward: None }
-    }
-
     /// The place on a cycle that is nearest to the start above: what there is where nothing leads up to that.
     pub(crate) fn nearest(cycle: &ClosedCurve, above: Option<Self>) -> Self {
         let arc = above.map_or(0.0, |start| cycle.nearest(start.at).s);
@@ -184,10 +177,7 @@ fn places_within(
 /// are clear from nearly all directions. On a straight strand they are, and at the tip of a narrow hairpin; on one of its legs they are
 /// not, since what holds it may pass beyond the other leg.
 pub(crate) fn is_open(cycle: &ClosedCurve, arc: f64, across: f64) -> bool {
-    let at = cycle.point_at(arc);
-    let towards = |k: usize| across * DVec2::from_angle(k as f64 * std::f64::consts::TAU / DIRECTIONS as f64);
-    let is_shut = |k: &usize| !is_clear(&Segment::new(at + towards(*k), at), arc, cycle);
-    (0..DIRECTIONS).filter(is_shut).nth(SHUT_AT_MOST).is_none()
+    shut_directions(cycle, arc, across, DIRECTIONS) <= SHUT_AT_MOST
 }
 
 /// The place on the walls below that is nearest to a point and not behind a wall of its own layer.

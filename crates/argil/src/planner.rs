@@ -2,19 +2,26 @@
 
 use std::ops::ControlFlow;
 
+use argil_curve::ClosedCurve;
 use argil_mesh::Mesh;
 use argil_slice::{Layer, outer_walls};
+use geo_types::MultiPolygon;
 
-use crate::climb::climbed;
-use crate::descent::{Descent, timed, wall_curves};
+use crate::climb::{Climbed, climbed};
+use crate::descent::{Descent, PlannedLayer, timed, wall_curves};
 use crate::flow::roomy;
-use crate::model::{LANES, model};
+use crate::foothold::Steps;
+use crate::model::{LANES, ModelLayer, model};
+use crate::settle::Keeping;
 use crate::stages::{
     BestChain, ElasticCurve, Excursions, FewestPoints, PlaneSlices, PulledTaut, Route, Safeguard, Seam,
     Slice, SlopedSafeguard, Smooth, Support, Tauten,
 };
 use crate::watch::{Watch, Watched};
 use crate::{Infill, InfillChoice, LayerReport, Plan, PlanError, Settings, StageTimes};
+
+/// A step that rises at least one in so many is short for any bead: a longer one hangs on its way up.
+const SLOPE: f64 = 2.3;
 
 /// How far a plan has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -247,31 +254,8 @@ impl<S: Slice, G: Safeguard, U: Support, R: Route, E: Smooth, T: Tauten, C: Seam
         let safeguards =
             timed(&mut times.safeguard, || self.safeguard.regions_while(&outer, settings, goes_on));
         let safeguards = safeguards.ok_or(PlanError::Cancelled)?;
-        let descended = Descent {
-            settings,
-            support: &mut self.support,
-            route: &mut Watched { stage: &mut self.route, watch },
-            smooth: &mut Watched { stage: &mut self.smooth, watch },
-            taut: &mut self.taut,
-            times: &mut times,
-            checked: self.checked,
-        }
-        .run(layers, (&models, &walls), &safeguards, &mut |progress| {
-            watch.tell(progress);
-        });
-        // A descent that was ended fails for want of work, not for the reason that it gives.
-        watch.check()?;
-        let planned = descended?;
-        watch.tell(Progress::Descended);
-        watch.check()?;
-        if planned.is_empty() {
-            return Err(PlanError::Nothing);
-        }
-        let seam = &mut Watched { stage: &mut self.seam, watch };
-        let joined = timed(&mut times.seam, || climbed((&planned, layers), seam, settings, self.checked));
-        // A chain of which the search was ended fails as well.
-        watch.check()?;
-        let climbed = joined?;
+        let sliced = Sliced { layers, walls: &walls, models: &models, safeguards: &safeguards };
+        let (planned, climbed) = self.strung(&sliced, settings, &mut times, watch)?;
         let mut reports: Vec<LayerReport> = planned.iter().map(|layer| layer.report).collect();
         for (report, lie) in reports.iter_mut().zip(&climbed.lies) {
             (report.climb, report.level_because, report.bead_heights) = (lie.climb, lie.cause, lie.beads);
@@ -286,7 +270,87 @@ impl<S: Slice, G: Safeguard, U: Support, R: Route, E: Smooth, T: Tauten, C: Seam
             times,
         })
     }
+
+    /// All layers planned and joined. Where that takes a long step, or does not work out, they are planned once more with strand laid for
+    /// their starts; the plan with the shorter longest step stands.
+    fn strung(
+        &mut self,
+        sliced: &Sliced<'_>,
+        settings: &Settings,
+        times: &mut StageTimes,
+        watch: &Watch<'_>,
+    ) -> Result<Strung, PlanError> {
+        let sparing = self.strung_by(Keeping::Sparing, sliced, settings, times, watch);
+        let short = (SLOPE * settings.layer_height).max(Steps::Short.reach(&settings.seaming()));
+        let longest = |strung: &Strung| strung.1.longest_step();
+        let is_short = match &sparing {
+            Ok(strung) => longest(strung) <= short,
+            Err(PlanError::Layer { .. } | PlanError::Seam(_)) => false,
+            Err(_) => true,
+        };
+        if is_short || !self.checked {
+            return sparing;
+        }
+        let guided = self.strung_by(Keeping::Guided, sliced, settings, times, watch);
+        watch.check()?;
+        match (sparing, guided) {
+            (Ok(sparing), Ok(guided)) if longest(&guided) < longest(&sparing) => Ok(guided),
+            (Err(_), Ok(guided)) => Ok(guided),
+            (sparing, _) => sparing,
+        }
+    }
+
+    fn strung_by(
+        &mut self,
+        keeping: Keeping,
+        sliced: &Sliced<'_>,
+        settings: &Settings,
+        times: &mut StageTimes,
+        watch: &Watch<'_>,
+    ) -> Result<Strung, PlanError> {
+        let &Sliced { layers, walls, models, safeguards } = sliced;
+        let descended = Descent {
+            settings,
+            support: &mut self.support,
+            route: &mut Watched { stage: &mut self.route, watch },
+            smooth: &mut Watched { stage: &mut self.smooth, watch },
+            taut: &mut self.taut,
+            times,
+            checked: self.checked,
+            keeping,
+        }
+        .run(layers, (models, walls), safeguards, &mut |progress| {
+            // The layers are counted once.
+            watch.tell(if keeping == Keeping::Sparing { progress } else { Progress::Working });
+        });
+        // A descent that was ended fails for want of work, not for the reason that it gives.
+        watch.check()?;
+        let planned = descended?;
+        if keeping == Keeping::Sparing {
+            watch.tell(Progress::Descended);
+            watch.check()?;
+        }
+        if planned.is_empty() {
+            return Err(PlanError::Nothing);
+        }
+        let seam = &mut Watched { stage: &mut self.seam, watch };
+        let joined = timed(&mut times.seam, || climbed((&planned, layers), seam, settings, self.checked));
+        // A chain of which the search was ended fails as well.
+        watch.check()?;
+        Ok((planned, joined?))
+    }
 }
+
+/// What layers are planned from, bottom first.
+struct Sliced<'a> {
+    layers: &'a [Layer],
+    walls: &'a [Vec<ClosedCurve>],
+    models: &'a [ModelLayer],
+    safeguards: &'a [MultiPolygon<f64>],
+}
+
+/// Layers that are planned, and the strand that they are joined to.
+type Strung = (Vec<PlannedLayer>, Climbed);
 
 /// Whether there is no plan because of how the layers came out.
 fn is_fault(plan: &Result<Plan, PlanError>) -> bool {

@@ -18,10 +18,21 @@ const SHUT: f64 = 30.0;
 /// How starts are kept where no wall leads up to them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Keeping {
-    /// The starts above give way before strand is laid for one.
+    /// A long step is taken, and the starts above give way, before strand is laid for one.
     Sparing,
     /// Strand is laid before they give way: it gets out of where they would be caught.
     Guided,
+}
+
+/// Which starts may give way, and for what steps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Giving {
+    /// Those of a few layers, for short steps.
+    Few,
+    /// Those of all layers, for short steps.
+    All,
+    /// Those of all layers, for any steps that are allowed.
+    AllFar,
 }
 
 /// Where a cycle may begin that was just planned.
@@ -29,8 +40,6 @@ pub(crate) struct Settled {
     pub(crate) start: Foothold,
     /// Where those above give way to, arcs along their cycles, bottom first; the others stay.
     pub(crate) above: Vec<f64>,
-    /// Whether no more than a short step, or one to a start that something leads up to, is needed.
-    pub(crate) is_short: bool,
 }
 
 /// The start on a cycle that was just planned. `planned` are the layers above it, top first, the lowest with the given start; their starts
@@ -45,20 +54,19 @@ pub(crate) fn settle(
 ) -> Settled {
     let above = planned.last().map(|layer| &layer.curve).zip(start);
     let kept = |steps: Steps| foothold(cycle, above, walls, seam, steps).map(|place| (place, Vec::new()));
-    let again = |is_short: bool| rechained(cycle, planned, walls, seam, is_short);
-    let short = match keeping {
-        Keeping::Sparing => kept(Steps::Led).or_else(|| again(true)).or_else(|| kept(Steps::Guided)),
-        Keeping::Guided => kept(Steps::Short).or_else(|| kept(Steps::Guided)).or_else(|| again(true)),
+    let again = |giving: Giving| rechained(cycle, planned, walls, seam, giving);
+    let near = match keeping {
+        Keeping::Sparing => kept(Steps::Led).or_else(|| again(Giving::Few)).or_else(|| kept(Steps::Guided)),
+        Keeping::Guided => kept(Steps::Short).or_else(|| kept(Steps::Guided)).or_else(|| again(Giving::Few)),
     };
-    let is_short = short.is_some();
-    let settled = short.or_else(|| kept(Steps::Long)).or_else(|| again(false));
+    let settled =
+        near.or_else(|| again(Giving::All)).or_else(|| kept(Steps::Long)).or_else(|| again(Giving::AllFar));
     let (start, above) = settled.unwrap_or_else(|| (Foothold::nearest(cycle, start), Vec::new()));
-    Settled { start, above, is_short }
+    Settled { start, above }
 }
 
 /// A chain of starts through `cycle` and those planned above it, top first, with other starts than were kept open: where
-/// none on `cycle` leads up to the start above, another start there, or further up, may have some. For short steps the starts of the next few layers
-/// may give way, for long ones those of all.
+/// none on `cycle` leads up to the start above, another start there, or further up, may have some.
 /// Returns the start on `cycle`, near a wall below if that can be, and the arcs of the others, bottom first; `None` where no chain exists.
 ///
 /// # Complexity
@@ -68,19 +76,22 @@ fn rechained(
     planned: &[PlannedLayer],
     walls: [&SegmentIndex; 2],
     seam: &SeamSettings,
-    is_short: bool,
+    giving: Giving,
 ) -> Option<(Foothold, Vec<f64>)> {
     let below = walls[1];
-    let free = if is_short { WINDOW } else { planned.len() };
+    let short = Steps::Short.reach(seam);
+    // The best chain of short steps may be the only one; a few layers are searched fast.
+    let (free, reach, spacing) = match giving {
+        Giving::Few => (WINDOW, short, FINE * seam.spacing),
+        Giving::All => (planned.len(), short, seam.spacing),
+        Giving::AllFar => (planned.len(), seam.reach, seam.spacing),
+    };
     let above = &planned[planned.len().saturating_sub(free + 1)..];
     let fixed =
         above.first().filter(|_| above.len() > free).map(|layer| layer.curve.point_at(layer.foothold));
     let cycles: Vec<ClosedCurve> =
         std::iter::once(cycle).chain(above.iter().rev().map(|layer| &layer.curve)).cloned().collect();
     let also: Vec<f64> = std::iter::once(0.0).chain(above.iter().rev().map(|layer| layer.foothold)).collect();
-    // The best chain of short steps may be the only one; a few layers are searched fast.
-    let (reach, spacing) =
-        if is_short { (Steps::Short.reach(seam), FINE * seam.spacing) } else { (seam.reach, seam.spacing) };
     let held = HELD * seam.across;
     let hanging = |p: DVec2| below.nearest(p).map_or(0.0, |wall| (wall.distance - held).max(0.0));
     let shut = SHUT * seam.reach.powi(2);
@@ -150,7 +161,7 @@ mod tests {
         let start = Foothold { at: hidden.point, arc: hidden.s, over_wall: false, toward: None };
         assert_eq!(foothold(&below, Some((&above, start)), [&none, &none], &seam, Steps::Long), None);
         let (start, arcs) =
-            rechained(&below, &[planned(&above, hidden.s)], [&none, &none], &seam, false).unwrap();
+            rechained(&below, &[planned(&above, hidden.s)], [&none, &none], &seam, Giving::AllFar).unwrap();
         let step = Segment::new(start.at, above.point_at(arcs[0]));
         assert!(step.length() <= seam.reach && is_clear(&step, arcs[0], &above));
     }
@@ -168,7 +179,6 @@ mod tests {
         let start = Foothold { at: middle.point_at(corner), arc: corner, over_wall: false, toward: None };
         let mut above = vec![planned(&top, arc(&top, -3.08, -0.94)), planned(&middle, corner)];
         let settled = settle(&below, &above, Some(start), [&none, &none], &seam, Keeping::Sparing);
-        assert!(settled.is_short);
         above.iter_mut().rev().zip(&settled.above).for_each(|(layer, &arc)| layer.foothold = arc);
         let starts = [top.point_at(above[0].foothold), middle.point_at(above[1].foothold), settled.start.at];
         let short = Steps::Short.reach(&seam);
