@@ -21,7 +21,7 @@ use crate::watch::{Watch, Watched};
 use crate::{Infill, InfillChoice, LayerReport, Plan, PlanError, Settings, StageTimes};
 
 /// A step that rises at least one in so many is short for any bead: a longer one hangs on its way up.
-const SLOPE: f64 = 2.3;
+const SLOPE: f64 = 2.4;
 
 /// How far a plan has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
