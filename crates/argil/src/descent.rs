@@ -221,10 +221,7 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
             check.rounded(&mut taut, &candidate.fixed);
             let points = if self.checked && check.fault(&taut).is_some() { points } else { taut };
             let mut cycle = Cycle { points, ..candidate };
-            // What holds the start above, and what leads on from it, stays as it is.
-            let kept =
-                start.iter().flat_map(|s| [Some(s.at), s.toward.and(guide.map(|g| supports[g].position))]);
-            let mut failed: Vec<DVec2> = kept.flatten().flat_map(|place| [place; 2]).collect();
+            let mut failed: Vec<DVec2> = Vec::new();
             for _ in 0..BLUNTINGS {
                 let Some(mut next) = blunted(&cycle, settings.width, &failed) else { break };
                 check.rounded(&mut next.points, &next.fixed);
