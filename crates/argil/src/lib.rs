@@ -23,6 +23,7 @@
 //! Lengths are in millimetres. The same input gives the same bytes.
 #![forbid(unsafe_code)]
 
+mod ascent;
 mod blunt;
 mod clearance;
 mod climb;
@@ -36,6 +37,7 @@ mod foothold;
 mod hold;
 pub mod literal;
 mod model;
+mod opening;
 mod passage;
 mod plan;
 mod planner;
