@@ -55,6 +55,9 @@ pub struct LayerInput<'a> {
     pub barred: &'a [DVec2],
 }
 
+/// How much farther than the nearest part of a wall from a barred place others are barred as well, in w.
+const BESIDE: f64 = 0.2;
+
 /// Routes layers; see the crate's documentation for the method.
 #[derive(Clone, Debug)]
 pub struct Router {
@@ -102,9 +105,12 @@ impl Router {
         let mut attachments = Attachments::new(spines, gap, root_gap, s.width / 6.0);
         for &place in layer.barred {
             for (wall, curve) in curves.iter().enumerate() {
-                let nearest = curve.nearest(place);
-                if nearest.distance < s.width {
-                    attachments.take(wall, nearest.s);
+                let nearest = curve.nearest(place).distance;
+                if nearest < s.width {
+                    // Where a line turns off, the wall passes twice, at arcs far apart.
+                    let near = (0..curve.segment_count()).map(|k| curve.on_segment(k, place));
+                    let beside = near.filter(|on| on.distance <= nearest + BESIDE * s.width);
+                    beside.for_each(|on| attachments.take(wall, on.s));
                 }
             }
         }

@@ -141,3 +141,33 @@ fn a_lonely_wall_is_its_own_cycle() {
     let scene = Scene { rings: vec![(ring(DVec2::ZERO, 5.0, 3.0, false), None)], demands: vec![] };
     assert_eq!(routed(&scene).unwrap().points, scene.rings[0].0);
 }
+
+#[test]
+fn where_a_line_turns_off_a_barred_place_bars_both_sides() {
+    // A square with a line 0.1 mm wide that leads away from its right side.
+    let square = [
+        (0.0, 0.0),
+        (20.0, 0.0),
+        (20.0, 9.95),
+        (26.0, 9.95),
+        (26.0, 10.05),
+        (20.0, 10.05),
+        (20.0, 20.0),
+        (0.0, 20.0),
+    ];
+    let square: Vec<DVec2> = square.into_iter().map(DVec2::from).collect();
+    let walls = [Wall { points: &square, parent: None }];
+    let within = DVec2::new(17.0, 10.3);
+    let demands = [Demand { position: within, anchors: vec![within] }];
+    let nearest_root = |barred: &[DVec2]| {
+        let input = LayerInput { walls: &walls, demands: &demands, safeguard: &[], above: None, barred };
+        let cycle = Router::new(RouteSettings::default()).unwrap().cycle(&input).unwrap();
+        let n = cycle.points.len();
+        let on_wall = |k: usize| cycle.legs[k % n] == Leg::Wall;
+        let roots = (0..n).filter(|&k| on_wall(k) != on_wall(k + n - 1)).map(|k| cycle.points[k]);
+        roots.map(|root| root.distance(DVec2::new(20.0, 10.0))).fold(f64::INFINITY, f64::min)
+    };
+    assert!(nearest_root(&[]) < 1.0, "the nearest place is beside the line");
+    // Just below the line; above it is free unless both sides are barred.
+    assert!(nearest_root(&[DVec2::new(19.9, 9.9)]) > 1.5);
+}

@@ -30,6 +30,9 @@ const LEAST: f64 = 0.7;
 /// Parts that come no farther than this from the others, in w, are what rounding has left along their sides.
 const SHAVING: f64 = 0.01;
 
+/// … which have no more area than this for each mm round, in w².
+const HAIR: f64 = 2e-4;
+
 /// Spacing of the places where the wall is looked for, in w.
 const STEP: f64 = 0.4;
 
@@ -76,9 +79,12 @@ pub(crate) fn strips(region: &MultiPolygon<f64>, width: f64, chord: f64) -> Mult
     }
     let stout: Vec<Vec<DVec2>> = stout.iter().flat_map(rings).map(ring_points).collect();
     let stout = SegmentIndex::new(stout.iter().flat_map(|ring| sides(ring)).collect(), width);
-    slender
-        .0
-        .retain(|part| ring_points(part.exterior()).iter().any(|&p| !stout.is_within(p, SHAVING * width)));
+    // One that leads from part to part has all its corners there, but not its sides.
+    slender.0.retain(|part| {
+        let ring = ring_points(part.exterior());
+        let is_hair = signed_area(&ring).abs() <= HAIR * width * perimeter(&ring);
+        !is_hair || sides(&ring).any(|side| !stout.is_within(side.point_at(0.5), SHAVING * width))
+    });
     if slender.0.is_empty() {
         return slender;
     }
