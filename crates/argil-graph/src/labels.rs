@@ -5,12 +5,11 @@
 //! together separate what lies below: the distance is the least sum over them. Ouyang, Qin, Chang, Lin, Zhang and Zhu,
 //! *When Hierarchy Meets 2-Hop-Labeling*, <https://doi.org/10.1145/3183713.3196913>.
 
-use pulp::{Arch, Simd, WithSimd};
-
 use crate::PathGraph;
 use crate::hierarchy::Hierarchy;
 use crate::matrix::NOWHERE;
 use crate::sweeps::{LANES, Lanes, Sources, UNREACHED, lower};
+use crate::vectors::{OverLanes, Vectors};
 
 /// No vertex is above both.
 const NO_TOP: u32 = u32::MAX;
@@ -86,9 +85,9 @@ impl PathGraph {
         labels.lengths.reserve_exact(room);
         labels.starts.reserve_exact(ranks.len());
         let mut climb = SharedClimb::new(hierarchy);
-        let arch = Arch::new();
+        let vectors = Vectors::here();
         for sources in ranks.chunks(LANES) {
-            arch.dispatch(Batch { climb: &mut climb, sources });
+            vectors.run(Batch { climb: &mut climb, sources });
             for (lane, &rank) in sources.iter().enumerate() {
                 labels.add(rank, lane, &climb.lengths);
             }
@@ -289,11 +288,9 @@ struct Batch<'a, 'h> {
     sources: &'a [u32],
 }
 
-impl WithSimd for Batch<'_, '_> {
-    type Output = ();
-
+impl OverLanes for Batch<'_, '_> {
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
+    fn run(self) {
         self.climb.run(self.sources);
     }
 }

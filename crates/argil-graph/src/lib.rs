@@ -21,6 +21,7 @@ mod space;
 mod sweeps;
 mod thinning;
 mod triangulation;
+mod vectors;
 #[cfg(feature = "petgraph")]
 mod visit;
 

@@ -1,9 +1,8 @@
 //! All distances among some vertices by sweeps up and down the hierarchy.
 
-use pulp::{Arch, Simd, WithSimd};
-
 use crate::hierarchy::Hierarchy;
 use crate::matrix::NOWHERE;
+use crate::vectors::{OverLanes, Vectors};
 use crate::{DistanceMatrix, PathGraph};
 
 /// How many sources a sweep carries side by side. With fewer the links are read more often, with more the sweep
@@ -50,9 +49,9 @@ impl PathGraph {
         let Sources { ranks: sources, places } = Sources::of(hierarchy, among);
         let mut by_rank = DistanceMatrix::zero(sources.len());
         let mut sweep = Sweep::new(hierarchy, &sources);
-        let arch = Arch::new();
+        let vectors = Vectors::here();
         for first in (0..sources.len()).step_by(LANES) {
-            arch.dispatch(Batch { sweep: &mut sweep, sources: &sources, first, matrix: &mut by_rank });
+            vectors.run(Batch { sweep: &mut sweep, sources: &sources, first, matrix: &mut by_rank });
         }
         self.join_neighbouring_attachments(&sources, &mut by_rank);
         by_rank.renumbered(&places)
@@ -123,11 +122,9 @@ struct Batch<'a, 'h> {
     matrix: &'a mut DistanceMatrix,
 }
 
-impl WithSimd for Batch<'_, '_> {
-    type Output = ();
-
+impl OverLanes for Batch<'_, '_> {
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
+    fn run(self) {
         let later = &self.sources[self.first..];
         self.sweep.run(&later[..later.len().min(LANES)]);
         self.sweep.collect(later, self.first, self.matrix);

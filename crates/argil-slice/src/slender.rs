@@ -27,11 +27,12 @@ const CLOSING_CHORD: f64 = 0.03;
 /// Slender parts shorter round than this, in w, are the tips of corners and stay as they are.
 const LEAST: f64 = 0.7;
 
-/// Parts that come no farther than this from the others, in w, are what rounding has left along their sides.
-const SHAVING: f64 = 0.01;
-
-/// … which have no more area than this for each mm round, in w².
+/// What rounding leaves along the sides of other parts is not slender but nothing: it has no more area than this for each mm round it,
+/// in w, …
 const HAIR: f64 = 2e-4;
+
+/// … and comes no farther than this from the others, in w.
+const SHAVING: f64 = 0.01;
 
 /// Spacing of the places where the wall is looked for, in w.
 const STEP: f64 = 0.4;
