@@ -1,8 +1,5 @@
 use glam::DVec2;
 
-/// Coordinates beyond this are refused, in millimetres.
-pub(crate) const LARGEST: f64 = 1e6;
-
 /// Layers of closed contours, bottom first.
 ///
 /// A point is solid where it lies inside an odd number of the contours of its layer, whichever way they run. The first point of a

@@ -4,7 +4,9 @@ use svgtypes::{PathParser, PathSegment, PointsParser, SimplePathSegment, Simplif
 
 use super::attribute::{coordinate, line, unreadable};
 use crate::LayersError;
-use crate::layers::LARGEST;
+
+/// Coordinates beyond this are refused, in millimetres.
+const LARGEST: f64 = 1e6;
 
 /// Numbers beyond this are refused before anything is made of them; any page with a unit of its own is far below.
 const LARGEST_NUMBER: f64 = 1e9;
