@@ -6,27 +6,48 @@ use geo::{Area, BooleanOps, Buffer, OpType};
 use geo_types::{Coord, LineString, MultiLineString, MultiPolygon, Polygon};
 use glam::DVec2;
 
+/// Contours that meet in a corner are drawn apart by this share of the way to its neighbours.
+const APART: f64 = 1e-6;
+
 /// The region round which closed contours wind any number of times but none.
 ///
 /// So bodies that overlap are one, cavities stay, and a mesh that is inside out (it winds −1 times) is as good as
 /// another. Pieces of less than `least_area` are dropped.
 pub(crate) fn wound_region(contours: &[Vec<DVec2>], least_area: f64) -> MultiPolygon<f64> {
-    let rings = contours.iter().filter(|ring| ring.len() >= 3);
-    let rings = MultiPolygon(rings.map(|ring| polygon_through(std::slice::from_ref(ring))).collect());
-    let mut region =
-        rings.boolean_op_with_fill_rule(&MultiPolygon(Vec::new()), OpType::Union, FillRule::NonZero);
-    region.0.retain(|polygon| polygon.unsigned_area() >= least_area);
-    region
+    region_by(FillRule::NonZero, contours, least_area)
 }
 
 /// The region inside an odd number of contours, whichever way they run. Pieces of less than `least_area` are dropped.
 pub(crate) fn parity_region(contours: &[Vec<DVec2>], least_area: f64) -> MultiPolygon<f64> {
-    let rings = contours.iter().filter(|ring| ring.len() >= 3);
-    let rings = MultiPolygon(rings.map(|ring| polygon_through(std::slice::from_ref(ring))).collect());
-    let mut region =
-        rings.boolean_op_with_fill_rule(&MultiPolygon(Vec::new()), OpType::Union, FillRule::EvenOdd);
+    region_by(FillRule::EvenOdd, contours, least_area)
+}
+
+fn region_by(rule: FillRule, contours: &[Vec<DVec2>], least_area: f64) -> MultiPolygon<f64> {
+    let mut loops: Vec<Vec<DVec2>> = contours.iter().filter(|ring| ring.len() >= 3).cloned().collect();
+    part(&mut loops);
+    let loops = MultiPolygon(loops.iter().map(|ring| polygon_through(std::slice::from_ref(ring))).collect());
+    let mut region = loops.boolean_op_with_fill_rule(&MultiPolygon(Vec::new()), OpType::Union, rule);
     region.0.retain(|polygon| polygon.unsigned_area() >= least_area);
     region
+}
+
+/// Draws contours apart that meet in one corner, three or more: the kernel can take what touches a hole there for holes.
+///
+/// All but the first turn off before the corner, by as little as the kernel still tells.
+fn part(loops: &mut [Vec<DVec2>]) {
+    let key = |p: &DVec2| [p.x.to_bits(), p.y.to_bits()];
+    let mut corners: Vec<([u64; 2], usize, usize)> = Vec::new();
+    for (ring, points) in loops.iter().enumerate() {
+        corners.extend(points.iter().enumerate().map(|(k, p)| (key(p), ring, k)));
+    }
+    corners.sort_unstable();
+    for meeting in corners.chunk_by(|a, b| a.0 == b.0).filter(|meeting| meeting.len() > 2) {
+        for &(_, ring, k) in &meeting[1..] {
+            let points = &mut loops[ring];
+            let [before, after] = [points.len() - 1, 1].map(|step| points[(k + step) % points.len()]);
+            points[k] = points[k].lerp(before.midpoint(after), APART);
+        }
+    }
 }
 
 /// All points of the region farther than `distance` from its boundary, up to `chord_error`: joins
