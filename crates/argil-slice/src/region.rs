@@ -1,13 +1,12 @@
 //! The few polygon operations the slicer needs, on top of `geo`.
 
-use geo::bool_ops::FillRule;
 use geo::buffer::{BufferStyle, LineCap, LineJoin};
-use geo::{Area, BooleanOps, Buffer, OpType};
+use geo::{Area, Buffer};
 use geo_types::{Coord, LineString, MultiLineString, MultiPolygon, Polygon};
 use glam::DVec2;
-
-/// Contours that meet in a corner are drawn apart by this share of the way to its neighbours.
-const APART: f64 = 1e-6;
+use i_overlay::core::fill_rule::FillRule;
+use i_overlay::core::overlay_rule::OverlayRule;
+use i_overlay::float::overlay::{FloatOverlay, OverlayOptions};
 
 /// The region round which closed contours wind any number of times but none.
 ///
@@ -22,32 +21,27 @@ pub(crate) fn parity_region(contours: &[Vec<DVec2>], least_area: f64) -> MultiPo
     region_by(FillRule::EvenOdd, contours, least_area)
 }
 
+/// The region that a rule makes of contours.
+///
+/// Rings may touch themselves and each other: the kernel's other form, in which none does, takes what touches a hole
+/// for a hole where contours run through one corner three times or along each other.
 fn region_by(rule: FillRule, contours: &[Vec<DVec2>], least_area: f64) -> MultiPolygon<f64> {
-    let mut loops: Vec<Vec<DVec2>> = contours.iter().filter(|ring| ring.len() >= 3).cloned().collect();
-    part(&mut loops);
-    let loops = MultiPolygon(loops.iter().map(|ring| polygon_through(std::slice::from_ref(ring))).collect());
-    let mut region = loops.boolean_op_with_fill_rule(&MultiPolygon(Vec::new()), OpType::Union, rule);
+    let rings: Vec<Vec<[f64; 2]>> = contours
+        .iter()
+        .filter(|ring| ring.len() >= 3)
+        .map(|ring| ring.iter().map(DVec2::to_array).collect())
+        .collect();
+    let options = OverlayOptions { ogc: false, ..OverlayOptions::ogc() };
+    let shapes = FloatOverlay::with_subj_custom(&rings, options, Default::default())
+        .overlay(OverlayRule::Subject, rule);
+    let polygon = |shape: &Vec<Vec<[f64; 2]>>| {
+        let rings: Vec<Vec<DVec2>> =
+            shape.iter().map(|ring| ring.iter().copied().map(DVec2::from).collect()).collect();
+        polygon_through(&rings)
+    };
+    let mut region: MultiPolygon<f64> = shapes.iter().map(polygon).collect();
     region.0.retain(|polygon| polygon.unsigned_area() >= least_area);
     region
-}
-
-/// Draws contours apart that meet in one corner, three or more: the kernel can take what touches a hole there for holes.
-///
-/// All but the first turn off before the corner, by as little as the kernel still tells.
-fn part(loops: &mut [Vec<DVec2>]) {
-    let key = |p: &DVec2| [p.x.to_bits(), p.y.to_bits()];
-    let mut corners: Vec<([u64; 2], usize, usize)> = Vec::new();
-    for (ring, points) in loops.iter().enumerate() {
-        corners.extend(points.iter().enumerate().map(|(k, p)| (key(p), ring, k)));
-    }
-    corners.sort_unstable();
-    for meeting in corners.chunk_by(|a, b| a.0 == b.0).filter(|meeting| meeting.len() > 2) {
-        for &(_, ring, k) in &meeting[1..] {
-            let points = &mut loops[ring];
-            let [before, after] = [points.len() - 1, 1].map(|step| points[(k + step) % points.len()]);
-            points[k] = points[k].lerp(before.midpoint(after), APART);
-        }
-    }
 }
 
 /// All points of the region farther than `distance` from its boundary, up to `chord_error`: joins
