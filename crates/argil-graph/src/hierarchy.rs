@@ -9,7 +9,7 @@
 //! Attachments come first and leave no shortcuts: a shortcut is a path through, which they forbid.
 
 use crate::PathGraph;
-use crate::elimination::{eliminate, in_postorder};
+use crate::elimination::Elimination;
 
 /// The graph with its shortcuts. Vertices go by their *rank*, their place in the order of elimination.
 #[derive(Clone, Debug)]
@@ -35,14 +35,14 @@ impl Hierarchy {
     /// O(Σ d²) for the degrees d at elimination: O(V √V) or better on plane graphs of even density.
     pub(crate) fn new(graph: &PathGraph) -> Hierarchy {
         let count = graph.vertex_count();
-        let (eliminated, links) = eliminate(graph);
-        let order = in_postorder(&eliminated, &links);
+        let eliminated = Elimination::new(graph);
+        let turns = eliminated.in_postorder(count);
 
         let mut rank_of = vec![0; count];
         let mut vertex_of: Vec<u32> = (0..count as u32).filter(|&v| graph.is_attachment(v)).collect();
         let attachment_count = vertex_of.len();
-        for (&v, rank) in order.iter().zip(attachment_count as u32..) {
-            rank_of[v as usize] = rank;
+        for (&turn, rank) in turns.iter().zip(attachment_count as u32..) {
+            rank_of[eliminated.vertex(turn) as usize] = rank;
         }
         // Attachments side by side in the plane become neighbours in rank: a sweep over a few of them then
         // climbs through few vertices.
@@ -54,51 +54,69 @@ impl Hierarchy {
         for (&v, rank) in vertex_of.iter().zip(0..) {
             rank_of[v as usize] = rank;
         }
-        vertex_of.extend(&order);
+        vertex_of.extend(turns.iter().map(|&turn| eliminated.vertex(turn)));
 
-        let total = order.iter().map(|&v| links.len(v)).sum::<usize>();
         let mut offsets = Vec::with_capacity(count + 1);
         offsets.push(0);
-        let mut to: Vec<u32> = Vec::with_capacity(total);
+        let mut to: Vec<u32> = Vec::with_capacity(eliminated.link_count() + 4 * attachment_count);
         let mut weights = Vec::new();
+        let mut open: Vec<(u32, f64)> = Vec::new();
         for &vertex in &vertex_of[..attachment_count] {
-            let mut open: Vec<(u32, f64)> =
-                graph.neighbours(vertex).filter(|&(u, _)| !graph.is_attachment(u)).collect();
+            open.clear();
+            open.extend(graph.neighbours(vertex).filter(|&(u, _)| !graph.is_attachment(u)));
             open.iter_mut().for_each(|(u, _)| *u = rank_of[*u as usize]);
             open.sort_unstable_by_key(|link| link.0);
             to.extend(open.iter().map(|link| link.0));
             weights.extend(open.iter().map(|link| link.1));
             offsets.push(to.len() as u32);
         }
-        for &v in &order {
-            let start = to.len();
-            to.extend(links.of(v).iter().map(|&u| rank_of[u as usize]));
-            to[start..].sort_unstable();
+        for &turn in &turns {
+            to.extend(eliminated.links(turn).iter().map(|&u| rank_of[u as usize]));
             offsets.push(to.len() as u32);
         }
-        drop(links);
         weights.resize(to.len(), f64::INFINITY);
         let middles = vec![Self::NO_MIDDLE; to.len()];
         let mut hierarchy = Hierarchy { rank_of, vertex_of, attachment_count, offsets, to, weights, middles };
-        hierarchy.weigh(graph, &eliminated);
+        let below = hierarchy.sort_links();
+        hierarchy.weigh(graph, &below);
         hierarchy
     }
 
-    /// Gives every link of the eliminated vertices its weight, rank by rank: that of the edge, if there is one, or the least
-    /// of the ways through what was eliminated before. Of equal ones the edge counts, or what was eliminated first.
-    ///
-    /// Every rank takes from all that link to it, which it finds in a list of its own: once it is done, each of them goes
-    /// on to the list of the next rank that it links to.
-    fn weigh(&mut self, graph: &PathGraph, eliminated: &[u32]) {
-        let count = self.len();
-        let mut turn = vec![0_u32; count];
-        for (&v, place) in eliminated.iter().zip(0..) {
-            turn[self.rank_of[v as usize] as usize] = place;
+    /// Puts the links of the eliminated vertices in ascending order, and gives which of them link to each rank, ascending as well.
+    fn sort_links(&mut self) -> Below {
+        let first = self.attachment_count;
+        let mut below = Below { offsets: vec![0; self.len() + 1], ranks: Vec::new() };
+        let links = self.offsets[first] as usize..self.to.len();
+        for &to in &self.to[links.clone()] {
+            below.offsets[to as usize + 1] += 1;
         }
-        // Per rank the first that links to it and is waiting there; per waiting rank the next one, and which link it is at.
-        let mut first = vec![Self::NO_MIDDLE; count];
-        let mut next = vec![Self::NO_MIDDLE; count];
-        let mut at = vec![0_u32; count];
+        for rank in 0..self.len() {
+            below.offsets[rank + 1] += below.offsets[rank];
+        }
+        below.ranks.resize(links.len(), 0);
+        let mut end = below.offsets.clone();
+        for rank in first..self.len() {
+            for &to in &self.to[self.offsets[rank] as usize..self.offsets[rank + 1] as usize] {
+                below.ranks[end[to as usize] as usize] = rank as u32;
+                end[to as usize] += 1;
+            }
+        }
+        end.copy_from_slice(&self.offsets);
+        for to in first..self.len() {
+            for &rank in below.of(to) {
+                self.to[end[rank as usize] as usize] = to as u32;
+                end[rank as usize] += 1;
+            }
+        }
+        below
+    }
+
+    /// Gives every link of the eliminated vertices its weight, rank by rank: that of the edge, if there is one, or the least
+    /// of the ways through what was eliminated before. Of equal ones the edge counts, or the lowest rank.
+    fn weigh(&mut self, graph: &PathGraph, below: &Below) {
+        let count = self.len();
+        // Which of its links each rank is at: those to ranks that are done are behind it.
+        let mut at = self.offsets.clone();
         // Where among the links of the rank under work the link to another one is.
         let mut slot = vec![0_u32; count];
         for rank in self.attachment_count..count {
@@ -107,40 +125,25 @@ impl Hierarchy {
                 slot[to as usize] = place;
             }
             let (done, own) = self.weights.split_at_mut(start);
-            let middles = &mut self.middles[start..];
+            let middles = &mut self.middles[start..end];
             for (u, weight) in graph.neighbours(self.vertex_of[rank]) {
                 let to = self.rank_of[u as usize];
                 if to as usize > rank {
                     own[slot[to as usize] as usize] = weight;
                 }
             }
-            let mut waiting = std::mem::replace(&mut first[rank], Self::NO_MIDDLE);
-            while waiting != Self::NO_MIDDLE {
-                let below = waiting;
-                waiting = next[below as usize];
-                let here = at[below as usize] as usize;
-                let last = self.offsets[below as usize + 1] as usize;
+            for &lower in below.of(rank) {
+                let here = at[lower as usize] as usize;
+                at[lower as usize] += 1;
+                let last = self.offsets[lower as usize + 1] as usize;
                 let up = done[here];
                 for (&to, &on) in self.to[here + 1..last].iter().zip(&done[here + 1..last]) {
                     let through = up + on;
                     let place = slot[to as usize] as usize;
-                    let (least, middle) = (&mut own[place], &mut middles[place]);
-                    let sooner =
-                        || *middle != Self::NO_MIDDLE && turn[below as usize] < turn[*middle as usize];
-                    if through < *least || (through == *least && sooner()) {
-                        (*least, *middle) = (through, below);
+                    if through < own[place] {
+                        (own[place], middles[place]) = (through, lower);
                     }
                 }
-                if here + 1 < last {
-                    at[below as usize] += 1;
-                    let to = self.to[here + 1] as usize;
-                    next[below as usize] = std::mem::replace(&mut first[to], below);
-                }
-            }
-            if start < end {
-                at[rank] = start as u32;
-                let to = self.to[start] as usize;
-                next[rank] = std::mem::replace(&mut first[to], rank as u32);
             }
         }
     }
@@ -215,5 +218,17 @@ impl Hierarchy {
         } else {
             follow(rank);
         }
+    }
+}
+
+/// Of each rank those that have it among their links.
+struct Below {
+    offsets: Vec<u32>,
+    ranks: Vec<u32>,
+}
+
+impl Below {
+    fn of(&self, rank: usize) -> &[u32] {
+        &self.ranks[self.offsets[rank] as usize..self.offsets[rank + 1] as usize]
     }
 }

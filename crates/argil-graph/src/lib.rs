@@ -7,6 +7,7 @@
 //! The free space between two obstacles inside an outer loop: the graph, and the shortest path between two terminals. Ochre is an attachment.
 #![forbid(unsafe_code)]
 
+mod bits;
 mod construction;
 mod distances;
 mod elimination;
@@ -14,6 +15,7 @@ mod error;
 mod graph;
 mod hierarchy;
 mod labels;
+mod lists;
 mod matrix;
 mod nearby;
 mod path_finder;
