@@ -29,6 +29,9 @@ use serde_json::{Map, Value, json};
 /// How many nearest terminals are candidates, besides those whose cells touch.
 const NEAREST: usize = 5;
 
+/// With no more terminals than this the search finds the nearest in a matrix sooner than the graph does.
+const MOST_SCANNED: usize = 1_000;
+
 /// Kicks a node for the tour above, which is there before the layer is begun.
 const KICKS_ABOVE: f64 = 40.0;
 
@@ -113,6 +116,13 @@ impl Metric for Lengths<'_> {
     #[inline]
     fn distance(&self, a: usize, b: usize) -> f64 {
         self.0.get(a, b)
+    }
+
+    fn row(&self, a: usize) -> Option<&[f64]> {
+        match self.0 {
+            Distances::Matrix(matrix) => Some(matrix.row(a)),
+            _ => None,
+        }
     }
 }
 
@@ -209,11 +219,14 @@ fn run() -> Result<(), Box<dyn Error>> {
     let (start_ms, start) =
         timed(rounds, || warm.as_ref().map(|(above, tour)| layer.order_of(above, &tour.order)));
     let start = start.flatten();
-    let (candidates_ms, candidates) = timed(rounds, || graph.nearby(among, NEAREST));
+    let in_matrix = among.len() <= MOST_SCANNED && matches!(distances, Distances::Matrix(_));
+    let (candidates_ms, candidates) =
+        timed(rounds, || graph.nearby(among, if in_matrix { 0 } else { NEAREST }));
     let candidates = candidates.unwrap_or_default();
     let metric = Lengths(&distances);
     let mut solver = TourSolver::new();
-    let mut options = arguments.options();
+    let neighbours = if in_matrix { NEAREST } else { 0 };
+    let mut options = TourOptions { neighbours, ..arguments.options() };
     if let Some(budget) = arguments.budget_ms {
         options.kicks_per_node = within(budget - candidates_ms - start_ms, |kicks_per_node| {
             let options = TourOptions { kicks_per_node, ..options };

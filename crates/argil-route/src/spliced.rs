@@ -83,6 +83,10 @@ impl Metric for Stops<'_> {
     fn distance(&self, a: usize, b: usize) -> f64 {
         self.0.get(a, b)
     }
+
+    fn row(&self, a: usize) -> Option<&[f64]> {
+        Some(self.0.row(a))
+    }
 }
 
 impl SplicedRouter {

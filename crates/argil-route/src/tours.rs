@@ -57,6 +57,10 @@ impl Metric for TourDistances {
     fn distance(&self, a: usize, b: usize) -> f64 {
         self.lengths[a * self.count + b]
     }
+
+    fn row(&self, a: usize) -> Option<&[f64]> {
+        Some(&self.lengths[a * self.count..(a + 1) * self.count])
+    }
 }
 
 /// Finds short closed tours for a [`Router`](crate::Router).

@@ -10,6 +10,9 @@ pub(crate) struct Candidate {
     pub(crate) node: u32,
 }
 
+/// So many distances are compared at a time.
+const LANES: usize = 16;
+
 /// For each node its candidate neighbours, nearest first.
 ///
 /// The lists are symmetric: a node deep inside a dense patch is nobody's choice from outside, but whoever leaves
@@ -44,19 +47,7 @@ impl CandidateLists {
         let count = count.min(n.saturating_sub(1));
         self.pairs.clear();
         for a in 0..n {
-            self.nearest.clear();
-            // Beginning with the next node, so that equal points do not all choose the same few.
-            for b in (a + 1..n).chain(0..a).take(if count == 0 { 0 } else { n }) {
-                let distance = metric.distance(a, b);
-                if self.nearest.len() == count {
-                    if self.nearest.last().is_none_or(|farthest| distance >= farthest.distance) {
-                        continue;
-                    }
-                    self.nearest.pop();
-                }
-                let place = self.nearest.iter().rposition(|c| c.distance <= distance).map_or(0, |k| k + 1);
-                self.nearest.insert(place, Candidate { distance, node: b as u32 });
-            }
+            self.find_nearest(metric, a, count);
             for &candidate in &self.nearest {
                 add_pair(&mut self.pairs, a as u32, candidate);
             }
@@ -68,6 +59,49 @@ impl CandidateLists {
             }
         }
         self.sort_into_lists(n);
+    }
+
+    /// The `count` nearest nodes of `a`. It begins with the next node, so that equal points do not all choose the same few.
+    fn find_nearest<M: Metric>(&mut self, metric: &M, a: usize, count: usize) {
+        self.nearest.clear();
+        if count == 0 {
+            return;
+        }
+        let n = metric.nodes();
+        if let Some(row) = metric.row(a).filter(|row| row.len() == n) {
+            self.enter_nearest(&row[a + 1..], a + 1, count);
+            self.enter_nearest(&row[..a], 0, count);
+        } else {
+            for b in (a + 1..n).chain(0..a) {
+                self.enter(Candidate { distance: metric.distance(a, b), node: b as u32 }, count);
+            }
+        }
+    }
+
+    /// Enters those of a run of distances, which begins with that to the node `first`, that are among the `count` least so far.
+    fn enter_nearest(&mut self, distances: &[f64], first: usize, count: usize) {
+        for (k, few) in distances.chunks(LANES).enumerate() {
+            let least = few.iter().copied().fold(f64::INFINITY, |a, b| if b < a { b } else { a });
+            if self.nearest.len() == count && self.nearest.last().is_none_or(|last| least >= last.distance) {
+                continue;
+            }
+            for (node, &distance) in (first + k * LANES..).zip(few) {
+                self.enter(Candidate { distance, node: node as u32 }, count);
+            }
+        }
+    }
+
+    /// Enters a candidate unless `count` are as near.
+    #[inline]
+    fn enter(&mut self, candidate: Candidate, count: usize) {
+        if self.nearest.len() == count {
+            if self.nearest.last().is_none_or(|last| candidate.distance >= last.distance) {
+                return;
+            }
+            self.nearest.pop();
+        }
+        let place = self.nearest.iter().rposition(|c| c.distance <= candidate.distance).map_or(0, |k| k + 1);
+        self.nearest.insert(place, candidate);
     }
 
     /// Counting sort of the pairs by their first node, then each list by distance, each pair kept once.

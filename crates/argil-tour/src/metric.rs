@@ -16,6 +16,14 @@ pub trait Metric {
 
     /// The distance between nodes `a` and `b`, both below [`nodes`](Self::nodes).
     fn distance(&self, a: usize, b: usize) -> f64;
+
+    /// The distances from node `a` to all nodes in their order, where they lie in memory like this. Nearest nodes are then
+    /// looked for several distances at a time.
+    #[inline]
+    fn row(&self, a: usize) -> Option<&[f64]> {
+        let _ = a;
+        None
+    }
 }
 
 impl<M: Metric + ?Sized> Metric for &M {
@@ -25,6 +33,10 @@ impl<M: Metric + ?Sized> Metric for &M {
 
     fn distance(&self, a: usize, b: usize) -> f64 {
         (**self).distance(a, b)
+    }
+
+    fn row(&self, a: usize) -> Option<&[f64]> {
+        (**self).row(a)
     }
 }
 
@@ -85,6 +97,10 @@ impl Metric for MatrixMetric<'_> {
     #[inline]
     fn distance(&self, a: usize, b: usize) -> f64 {
         self.entries[a * self.nodes + b]
+    }
+
+    fn row(&self, a: usize) -> Option<&[f64]> {
+        Some(&self.entries[a * self.nodes..(a + 1) * self.nodes])
     }
 }
 

@@ -68,6 +68,10 @@ impl<M: Metric> Metric for Remembered<'_, M> {
         slot.set((key, distance));
         distance
     }
+
+    fn row(&self, a: usize) -> Option<&[f64]> {
+        self.metric.row(a)
+    }
 }
 
 #[cfg(test)]
