@@ -44,6 +44,8 @@ pub(crate) struct Stops<'a, H> {
     pub(crate) hops: &'a H,
     pub(crate) to_wall: &'a [Vec<f64>],
     pub(crate) bound: &'a [bool],
+    /// A stop farther than this from all walls counts as so far where pairs are chosen, mm; it may be infinitely far.
+    pub(crate) far: f64,
     /// What a root costs, mm.
     pub(crate) root_cost: f64,
     /// What the square of an excursion's length costs, 1/mm.
@@ -109,9 +111,8 @@ impl<H: Hops> Stops<'_, H> {
     /// All pairs, the most promising first.
     fn pairs_by_saving(&self) -> Vec<(u32, u32)> {
         let n = self.to_wall.len();
-        let far = 35.0 * self.root_cost.max(1e-9);
         let near: Vec<f64> =
-            self.to_wall.iter().map(|w| w.iter().copied().fold(f64::INFINITY, f64::min).min(far)).collect();
+            self.to_wall.iter().map(|w| w.iter().copied().fold(self.far, f64::min)).collect();
         let mut pairs: Vec<(f64, u32, u32)> = Vec::new();
         for a in 0..n {
             for b in a + 1..n {

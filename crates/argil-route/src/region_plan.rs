@@ -71,6 +71,9 @@ pub(crate) struct RegionPlan {
 /// layer that is planned otherwise than the one above stands apart from it.
 const WORTH: f64 = 0.9;
 
+/// The way to a wall that counts in full where stops are paired, in w.
+const FAR: f64 = 87.5;
+
 /// A stop of a sketched tour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Stop {
@@ -208,6 +211,7 @@ impl RegionView<'_> {
             hops: &hops,
             to_wall: &reach,
             bound: &bound,
+            far: FAR * s.width,
             root_cost: s.root_cost * s.width,
             length_cost: s.length_cost / s.width,
         };
@@ -320,6 +324,7 @@ impl RegionView<'_> {
             hops: &hops,
             to_wall: &to_wall,
             bound: &bound,
+            far: FAR * s.width,
             root_cost: s.root_cost * s.width,
             length_cost: s.length_cost / s.width,
         };
