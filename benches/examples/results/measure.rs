@@ -127,7 +127,7 @@ pub(crate) fn verdict(report: &Report) -> String {
     let short: Vec<String> = report
         .falls_short()
         .iter()
-        .map(|s| format!("{} {:.3}", s.figure.replace('_', " "), s.value))
+        .map(|s| format!("{} {}", s.figure.replace('_', " "), (1e3 * s.value).round() / 1e3))
         .collect();
     if short.is_empty() { "yes".to_owned() } else { format!("no: {}", short.join(", ")) }
 }
