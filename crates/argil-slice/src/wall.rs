@@ -10,9 +10,9 @@ use crate::slender::{SLACK, is_strip_lost, strips};
 use crate::soundness::unsound;
 use crate::spine::{self, is_bare_somewhere};
 use crate::thin::{HALF_LANE, has_spine, with_spines};
-use argil_curve::SegmentIndex;
+use argil_curve::{SegmentIndex, self_crossings};
 use geo::{Area, BooleanOps, Contains, Intersects};
-use geo_types::{MultiPolygon, Polygon};
+use geo_types::{LineString, MultiPolygon, Polygon};
 use glam::DVec2;
 
 /// How far arcs may cut their corners, in w: a hundredth of what the eye sees on clay, and
@@ -270,12 +270,18 @@ fn slight_parts(
     lost.map(|part| Loss::Branch { layer, at: inner_point(part), area: part.unsigned_area() }).collect()
 }
 
-/// The outline with the vertices left out that change nothing.
+/// The outline with the vertices left out that change nothing. Where a ring would cross itself without them it keeps them: the
+/// kernel may lose it.
 fn simpler(polygon: &Polygon<f64>, width: f64) -> Polygon<f64> {
-    let rings: Vec<Vec<DVec2>> = region::rings(polygon)
-        .map(|ring| simplified(&ring_points(ring), OUTLINE_TOLERANCE * width))
-        .collect();
-    if rings[0].len() < 3 { polygon.clone() } else { polygon_through(&rings) }
+    let ring = |ring: &LineString<f64>| {
+        let whole = ring_points(ring);
+        let simple = simplified(&whole, OUTLINE_TOLERANCE * width);
+        if simple.len() < 3 || (simple.len() < whole.len() && !self_crossings(&simple).is_empty()) {
+            return whole;
+        }
+        simple
+    };
+    polygon_through(&region::rings(polygon).map(ring).collect::<Vec<_>>())
 }
 
 /// The pieces with each first wall that has a faulty one made anew, its slender parts widened, where that makes it sound by itself.
