@@ -1,6 +1,6 @@
 //! Rings: closed paths one bead apart, before they are joined.
 
-use argil_curve::{ClosedCurve, DVec2, SegmentIndex, on_grid};
+use argil_curve::{ClosedCurve, DVec2, SegmentIndex, on_grid, self_crossings};
 use geo::Simplify;
 use geo_types::{Coord, LineString, Polygon};
 
@@ -62,7 +62,9 @@ pub(crate) fn perimeter(points: &[DVec2]) -> f64 {
 pub(crate) fn plainer(polygon: &Polygon<f64>, tolerance: f64) -> Polygon<f64> {
     let plain = |ring: &LineString<f64>| {
         let simple = ring.simplify(tolerance);
-        if simple.0.len() < 4 { ring.clone() } else { simple }
+        // The kernel may lose a ring that crosses itself.
+        let is_usable = simple.0.len() >= 4 && self_crossings(&ring_points(&simple)).is_empty();
+        if is_usable { simple } else { ring.clone() }
     };
     Polygon::new(plain(polygon.exterior()), polygon.interiors().iter().map(plain).collect())
 }

@@ -1,7 +1,7 @@
 use crate::SafeguardSettings;
 use geo::bool_ops::FillRule;
 use geo::buffer::{BufferStyle, LineJoin};
-use geo::{BooleanOps, Buffer, CoordsIter, Simplify};
+use geo::{Area, BooleanOps, Buffer, CoordsIter, Simplify};
 use geo_types::{MultiPolygon, Polygon};
 #[cfg(feature = "rayon")]
 use rayon::prelude::*;
@@ -100,8 +100,13 @@ fn all_dilated(layers: &[MultiPolygon<f64>], distance: f64, tolerance: f64) -> V
 /// Three things make it smaller than it should be: the simplification of the walls, the chords of
 /// the round joins, and the simplification of the result. They share what it is grown by on top.
 fn dilated(walls: &MultiPolygon<f64>, distance: f64, tolerance: f64) -> MultiPolygon<f64> {
-    let grown = offset(&simplified(walls, 0.4 * tolerance), distance + tolerance, 0.2 * tolerance);
-    simplified(&grown, 0.4 * tolerance)
+    let grown = |region: &MultiPolygon<f64>| offset(region, distance + tolerance, 0.2 * tolerance);
+    let mut region = grown(&simplified(walls, 0.4 * tolerance));
+    // The kernel may lose a ring that crosses itself, as one of the simplified may.
+    if region.unsigned_area() < walls.unsigned_area() {
+        region = grown(walls);
+    }
+    simplified(&region, 0.4 * tolerance)
 }
 
 /// Grows a region (or shrinks it, by a negative distance) with round joins whose chords cut off at most `chord_error`.

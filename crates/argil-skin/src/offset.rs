@@ -1,5 +1,6 @@
 //! Growing and shrinking regions, on top of `geo`.
 
+use argil_curve::{DVec2, self_crossings};
 use geo::buffer::{BufferStyle, LineJoin};
 use geo::{Area, Buffer, Simplify};
 use geo_types::{LineString, MultiPolygon, Polygon};
@@ -27,7 +28,12 @@ pub(crate) fn grown(region: &MultiPolygon<f64>, distance: f64, width: f64) -> Mu
 pub(crate) fn plainer(region: &MultiPolygon<f64>, width: f64) -> MultiPolygon<f64> {
     let plain = |ring: &LineString<f64>| {
         let simple = ring.simplify(PLAINER * width);
-        if simple.0.len() < 4 { ring.clone() } else { simple }
+        // The kernel may lose a ring that crosses itself.
+        let crosses = || {
+            let points: Vec<DVec2> = simple.points().skip(1).map(|p| DVec2::new(p.x(), p.y())).collect();
+            !self_crossings(&points).is_empty()
+        };
+        if simple.0.len() < 4 || crosses() { ring.clone() } else { simple }
     };
     let polygon =
         |p: &Polygon<f64>| Polygon::new(plain(p.exterior()), p.interiors().iter().map(plain).collect());

@@ -61,3 +61,28 @@ fn layers_that_enclose_nothing_are_no_mesh() {
     ));
     assert!(matches!(stacked(&[], f64::NAN), Err(SliceError::Setting { setting: "layer_height", .. })));
 }
+
+/// Without the vertices that change nothing the corner on the left would cross itself, and the kernel lose the hole.
+#[test]
+fn a_hole_with_a_blunt_corner_has_a_wall() {
+    let ring = |points: &[[f64; 2]]| points.iter().copied().map(DVec2::from).collect::<Vec<_>>();
+    let hole = ring(&[
+        [0.5449, 1.6449],
+        [0.548, 1.6486],
+        [0.5491, 1.65],
+        [0.55, 1.6506],
+        [0.5513, 1.6513],
+        [0.85, 1.8231],
+        [2.1098, 2.1098],
+        [1.65, 1.0868],
+        [1.1, 1.4238],
+        [0.8041, 1.4],
+        [0.5573, 1.6419],
+        [0.55, 1.6491],
+    ]);
+    let square = ring(&[[-6.0, -6.0], [8.0, -6.0], [8.0, 8.0], [-6.0, 8.0]]);
+    let mesh = stacked(&[vec![square, hole]], 0.5).unwrap();
+    let layers = slice(&mesh, &SliceSettings::default()).unwrap();
+    let holes: Vec<bool> = layers[0].walls.iter().map(|wall| wall.hole).collect();
+    assert_eq!(holes, [false, true]);
+}
