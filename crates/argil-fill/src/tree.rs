@@ -180,13 +180,21 @@ impl<'a> Tree<'a> {
         let mut sketches = Vec::new();
         for (track, own) in self.tracks.iter().enumerate() {
             let reaches = |other: &usize| {
-                parts[*other] != parts[track] && own.may_reach(&self.tracks[*other], search.reach)
+                parts[*other] != parts[track]
+                    && self.is_longer(*other, track)
+                    && own.may_reach(&self.tracks[*other], search.reach)
             };
             if (0..self.tracks.len()).any(|other| reaches(&other)) {
                 self.sketch(track, &parts, search, &mut sketches);
             }
         }
         sketches
+    }
+
+    /// Whether a track is longer than another one, or as long and after it: from the other to it joints are looked for.
+    fn is_longer(&self, track: usize, other: usize) -> bool {
+        let [own, others] = [track, other].map(|track| self.tracks[track].curve.length());
+        own > others || (own == others && track > other)
     }
 
     fn sketch(&self, track: usize, parts: &[usize], search: &Search<'_>, sketches: &mut Vec<Sketch>) {
@@ -204,8 +212,7 @@ impl<'a> Tree<'a> {
                 if parts[other] == parts[track] || boxes_apart(&spot, &segment, search.reach) {
                     return;
                 }
-                let longer = self.tracks[other].curve.length();
-                if longer < length || (longer == length && other <= track) {
+                if !self.is_longer(other, track) {
                     return;
                 }
                 let nearest = segment.nearest(from.at);
