@@ -32,7 +32,7 @@ pub(crate) fn run(args: &AuditArgs) -> Result<ExitCode, Failure> {
         .map_err(|source| Failure::input(&args.gcode.display().to_string(), source))?;
     drop(waiting);
     if !args.json.as_deref().is_some_and(output::is_standard) {
-        println!("{report}");
+        output::print("report", format!("{report}\n").as_bytes())?;
     }
     if let Some(path) = &args.json {
         let json = serde_json::to_vec_pretty(&Document(&report))

@@ -8,6 +8,7 @@ use argil_calibrate::{CalibrateError, Calibration, legend_svg};
 use crate::args::CalibrateArgs;
 use crate::failure::Failure;
 use crate::machine::{self, Job};
+use crate::output::tell;
 use crate::profiles::Profiles;
 use crate::{input, output};
 
@@ -42,15 +43,15 @@ pub(crate) fn run(args: &CalibrateArgs) -> Result<ExitCode, Failure> {
         output::write(&args.folder.join(&file), text.as_bytes())?;
         let minutes = (print.length() / written.speed(&print, 1) / 60.0).ceil();
         let unit = if minutes > 1.0 { "minutes" } else { "minute" };
-        eprintln!(
+        tell(format_args!(
             "{file}: {:.1} cm³ of paste, about {minutes:.0} {unit}",
             print.volume_as(written.bead) / 1e3
-        );
-        machine::misfit(&profiles, &job(name), &print).iter().for_each(|remark| eprintln!("{remark}"));
+        ));
+        machine::misfit(&profiles, &job(name), &print).iter().for_each(tell);
     }
     output::write(&args.folder.join("legend.svg"), legend.as_bytes())?;
-    machine::unknown_flow(&profiles, &job("test print")).iter().for_each(|remark| eprintln!("{remark}"));
-    eprintln!("legend.svg: how to read them, to be printed on A4");
+    machine::unknown_flow(&profiles, &job("test print")).iter().for_each(tell);
+    tell("legend.svg: how to read them, to be printed on A4");
     Ok(ExitCode::SUCCESS)
 }
 

@@ -2,6 +2,8 @@
 //!
 //! Exit status: 0 done · 2 wrong usage · 3 bad input · 4 a plan or file with findings.
 #![forbid(unsafe_code)]
+// They panic where nobody reads: `output` has what does not.
+#![warn(clippy::print_stdout, clippy::print_stderr)]
 // A program prints; the libraries do not.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
@@ -40,7 +42,7 @@ use failure::Failure;
 
 fn main() -> ExitCode {
     run(std::env::args_os().collect()).unwrap_or_else(|failure| {
-        eprintln!("argil: {failure}");
+        output::tell(format_args!("argil: {failure}"));
         failure.exit_code()
     })
 }
@@ -51,7 +53,7 @@ fn run(typed: Vec<OsString>) -> Result<ExitCode, Failure> {
         Args::command().args_override_self(true).mut_subcommands(|command| command.args_override_self(true));
     let words = config::with_file(&program, typed)?;
     if let Some(file) = printed_config(&program, &words) {
-        print!("{file}");
+        output::print("file of options", file.as_bytes())?;
         return Ok(ExitCode::SUCCESS);
     }
     let matches = program.try_get_matches_from_mut(words).unwrap_or_else(|error| error.exit());
@@ -60,10 +62,10 @@ fn run(typed: Vec<OsString>) -> Result<ExitCode, Failure> {
         Command::Plan(args) => plan_command::run(&args),
         Command::Audit(args) => audit_command::run(&args),
         Command::Calibrate(args) => calibrate_command::run(&args),
-        Command::Samples => Ok(samples_command::run()),
+        Command::Samples => samples_command::run(),
         Command::Printers { name } => list_command::list_printers(name.as_deref()),
         Command::Materials { name } => list_command::list_materials(name.as_deref()),
-        Command::Completions { shell } => Ok(shell_command::completions(shell)),
+        Command::Completions { shell } => shell_command::completions(shell),
         Command::Man => shell_command::manual(),
     }
 }

@@ -1,5 +1,6 @@
 //! Files that are written whole or not at all.
 
+use std::fmt::Display;
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -11,15 +12,27 @@ pub(crate) fn is_standard(path: &Path) -> bool {
     path.as_os_str() == "-"
 }
 
+/// Writes to standard output. That a reader has seen enough and left is no failure.
+pub(crate) fn print(what: &'static str, text: &[u8]) -> Result<(), Failure> {
+    match io::stdout().lock().write_all(text) {
+        Err(source) if source.kind() != io::ErrorKind::BrokenPipe => {
+            Err(Failure::Output { what, source: Box::new(source) })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Tells a line on standard error, if anybody listens there.
+pub(crate) fn tell(line: impl Display) {
+    drop(writeln!(io::stderr(), "{line}"));
+}
+
 /// Writes a file beside its place and moves it there, so that the final name never stands for half a file. What goes to
 /// standard output ends with its line.
 pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     if is_standard(path) {
-        let mut out = io::stdout().lock();
-        return out
-            .write_all(bytes)
-            .and_then(|()| if bytes.ends_with(b"\n") { Ok(()) } else { out.write_all(b"\n") })
-            .map_err(|source| Failure::writing(path, source));
+        let end: &[u8] = if bytes.ends_with(b"\n") { b"" } else { b"\n" };
+        return print("file", bytes).and_then(|()| print("file", end));
     }
     let failed = |source| Failure::writing(path, source);
     // A link is followed, and what is no file, as `/dev/null`, is written to and not replaced.

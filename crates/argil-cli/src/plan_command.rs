@@ -18,6 +18,7 @@ use crate::closed_slices::ClosedSlices;
 use crate::failure::{FINDINGS, Failure};
 use crate::input::Model;
 use crate::machine::Beyond;
+use crate::output::tell;
 use crate::preview_page::preview_page;
 use crate::profiles::Profiles;
 use crate::progress::{PlanBar, Waiting};
@@ -52,8 +53,8 @@ pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
         refuse_defects(&args.model, &repairs)?;
     }
     fits(args, "model", machine::model_beyond(&profiles, &mesh))?;
-    remarks.iter().for_each(|remark| eprintln!("note: {}: {remark}", args.model));
-    repairs.to_string().lines().for_each(|line| eprintln!("repair: {}: {line}", args.model));
+    remarks.iter().for_each(|remark| tell(format_args!("note: {}: {remark}", args.model)));
+    repairs.to_string().lines().for_each(|line| tell(format_args!("repair: {}: {line}", args.model)));
     let (plan, repaired) = plan(&mesh, &settings, args)?;
     let plan = plan.map_err(|source| Failure::Plan { name: args.model.clone(), source })?;
 
@@ -88,8 +89,8 @@ pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
         output::write(path, &json(&PlanReport::new(&args.model, asked, &repairs, &plan, audit.as_ref()))?)?;
     }
 
-    skirt_remark(&settings, &plan).iter().for_each(|remark| eprintln!("note: {remark}"));
-    machine::remarks(&profiles, &args.job(), &plan.strand).iter().for_each(|remark| eprintln!("{remark}"));
+    skirt_remark(&settings, &plan).iter().for_each(|remark| tell(format_args!("note: {remark}")));
+    machine::remarks(&profiles, &args.job(), &plan.strand).iter().for_each(tell);
     Ok(verdict(args, &plan, settings.width, audit.as_ref()))
 }
 
@@ -113,22 +114,25 @@ fn refuse_defects(name: &str, repairs: &Repairs) -> Result<(), Failure> {
 /// Says what was planned and found; the exit status tells whether there are findings.
 fn verdict(args: &PlanArgs, plan: &Plan, width: f64, audit: Option<&Report>) -> ExitCode {
     if !args.quiet {
-        eprintln!("{}", summary(plan, width));
+        tell(summary(plan, width));
     }
     let missing = missing(plan, width);
-    missing.iter().for_each(|line| eprintln!("{line}"));
+    missing.iter().for_each(tell);
     let mut findings = !missing.is_empty();
     if let Some(report) = audit {
         findings |= !report.is_sound();
         if !args.quiet {
-            eprintln!("{}", cleaning(report));
+            tell(cleaning(report));
         }
         let short = report.falls_short();
         if short.is_empty() && !args.quiet {
-            eprintln!("audit: sound");
+            tell("audit: sound");
         }
         for shortfall in short {
-            eprintln!("audit: {} is {}, the limit is {}", shortfall.figure, shortfall.value, shortfall.limit);
+            tell(format_args!(
+                "audit: {} is {}, the limit is {}",
+                shortfall.figure, shortfall.value, shortfall.limit
+            ));
         }
     }
     if findings { ExitCode::from(FINDINGS) } else { ExitCode::SUCCESS }

@@ -1,6 +1,6 @@
 //! `argil completions` and `argil man`: what a shell and a manual reader need to know of the program.
 
-use std::io;
+use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::CommandFactory;
@@ -8,25 +8,34 @@ use clap_complete::Shell;
 
 use crate::args::Args;
 use crate::failure::Failure;
+use crate::output::print;
 
 /// Writes a completion script.
-pub(crate) fn completions(shell: Shell) -> ExitCode {
-    clap_complete::generate(shell, &mut Args::command(), "argil", &mut io::stdout());
-    ExitCode::SUCCESS
+pub(crate) fn completions(shell: Shell) -> Result<ExitCode, Failure> {
+    let mut script = Vec::new();
+    clap_complete::generate(shell, &mut Args::command(), "argil", &mut script);
+    print("completion script", &script)?;
+    Ok(ExitCode::SUCCESS)
 }
 
 /// Writes the manual page of the program, with that of every command after it.
 pub(crate) fn manual() -> Result<ExitCode, Failure> {
-    let failed = |source| Failure::Output { what: "manual page", source: Box::new(source) };
-    let mut out = io::stdout().lock();
+    let what = "manual page";
+    let mut page = Vec::new();
+    rendered(&mut page).map_err(|source| Failure::Output { what, source: Box::new(source) })?;
+    print(what, &page)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn rendered(out: &mut impl Write) -> io::Result<()> {
     let mut command = Args::command();
     command.build();
-    clap_mangen::Man::new(command.clone()).render(&mut out).map_err(failed)?;
+    clap_mangen::Man::new(command.clone()).render(out)?;
     for sub in command.get_subcommands().filter(|sub| sub.get_name() != "help") {
         let page = clap_mangen::Man::new(sub.clone());
-        page.render_synopsis_section(&mut out).map_err(failed)?;
-        page.render_description_section(&mut out).map_err(failed)?;
-        page.render_options_section(&mut out).map_err(failed)?;
+        page.render_synopsis_section(out)?;
+        page.render_description_section(out)?;
+        page.render_options_section(out)?;
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(())
 }

@@ -317,6 +317,19 @@ fn help_and_version_are_no_failures() {
 }
 
 #[test]
+fn a_reader_that_leaves_early_is_no_failure() {
+    let folder = folder("reader");
+    for arguments in [&["man"] as &[&str], &["completions", "bash"], &["printers"], &["samples"], &["--help"]]
+    {
+        let (reader, writer) = std::io::pipe().unwrap();
+        drop(reader);
+        let mut program = Command::new(env!("CARGO_BIN_EXE_argil"));
+        let output = program.args(arguments).current_dir(&folder).stdout(writer).output().unwrap();
+        assert_eq!((output.status.code(), stderr(&output)), (Some(DONE), String::new()), "{arguments:?}");
+    }
+}
+
+#[test]
 fn models_that_are_none() {
     let folder = folder("models");
     let nan = [[f32::NAN, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 1.0]];
