@@ -2,10 +2,6 @@
 //!
 //! Exit status: 0 done · 2 wrong usage · 3 bad input · 4 a plan or file with findings.
 #![forbid(unsafe_code)]
-// They panic where nobody reads: `output` has what does not.
-#![warn(clippy::print_stdout, clippy::print_stderr)]
-// A program prints; the libraries do not.
-#![allow(clippy::print_stdout, clippy::print_stderr)]
 
 mod args;
 mod audit_command;
