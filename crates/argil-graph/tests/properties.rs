@@ -372,6 +372,40 @@ fn networks() -> impl Strategy<Value = (usize, Vec<u32>, Vec<(u32, u32, f64)>)> 
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig { cases: 12, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// More vertices than are eliminated as rows of bits, and hardly fewer: a square net with a few chords, attachments at its corners.
+    #[test]
+    fn distances_in_a_large_net_are_those_of_dijkstra(
+        side in 28_u32..48,
+        weights in prop::collection::vec(0_u32..1000, 97),
+        chords in prop::collection::vec((0_u32..2500, 0_u32..2500), 0..6),
+    ) {
+        let count = side * side;
+        let weight = |k: u32| f64::from(weights[k as usize % weights.len()]);
+        let across = (0..count).filter(|v| (v + 1) % side > 0).map(|v| (v, v + 1, weight(2 * v)));
+        let along = (0..count - side).map(|v| (v, v + side, weight(2 * v + 1)));
+        let chords = chords.iter().map(|&(a, b)| (a % count, b % count, 1.0)).filter(|(a, b, _)| a != b);
+        let edges: Vec<(u32, u32, f64)> = across.chain(along).chain(chords).collect();
+        let attachments = [0, side - 1, count - 1];
+        let graph = PathGraph::from_edges(vec![DVec2::ZERO; count as usize], &attachments, &[], &edges)?;
+        let among: Vec<u32> = (0..count).step_by(41).chain(attachments).collect();
+        let distances = graph.distances(&among);
+        let mut finder = PathFinder::new(&graph);
+        for (i, &from) in among.iter().enumerate().step_by(9) {
+            let oracle = oracle(&graph, from);
+            for (j, &to) in among.iter().enumerate() {
+                let expected = oracle.get(&NodeIndex::from(to)).copied().unwrap_or(f64::INFINITY);
+                prop_assert_eq!(distances.get(i, j), expected);
+                if let Some(path) = finder.path(from, to) {
+                    check_path(&graph, from, to, &path, expected)?;
+                }
+            }
+        }
+    }
+}
+
+proptest! {
     #![proptest_config(ProptestConfig { cases: 256, failure_persistence: None, ..ProptestConfig::default() })]
 
     /// Neither plane nor connected, with edges between attachments and edges of no weight.
