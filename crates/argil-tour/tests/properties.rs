@@ -172,3 +172,26 @@ proptest! {
         prop_assert_eq!(&shortest_tour(&metric, &[], None, &options), &tour);
     }
 }
+
+proptest! {
+    #![proptest_config(cases(40))]
+
+    #[test]
+    fn rows_in_memory_change_no_tour(points in points(15..150), neighbours in 1..9_usize) {
+        /// The same distances, one at a time.
+        struct OneByOne<'a>(MatrixMetric<'a>);
+        impl Metric for OneByOne<'_> {
+            fn nodes(&self) -> usize {
+                self.0.nodes()
+            }
+            fn distance(&self, a: usize, b: usize) -> f64 {
+                self.0.distance(a, b)
+            }
+        }
+        let distances = plane(&points);
+        let metric = MatrixMetric::new(points.len(), &distances).unwrap();
+        let options = TourOptions { neighbours, ..search_only(0.3) };
+        let tour = shortest_tour(&metric, &[], None, &options);
+        prop_assert_eq!(shortest_tour(&OneByOne(metric), &[], None, &options), tour);
+    }
+}
