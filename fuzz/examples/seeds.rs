@@ -197,10 +197,11 @@ fn main() -> std::io::Result<()> {
         write("read_gcode", name, text.as_bytes())?;
     }
     // Of the other targets any bytes make an input; longer ones make larger inputs.
-    let drawn = argil_fuzz::TARGETS.iter().filter(|(name, _)| !name.starts_with("read_"));
-    for (number, (name, _)) in drawn.enumerate() {
-        for (k, length) in [24, 48, 96, 192, 384].into_iter().enumerate() {
-            let mut random = SplitMix((10 * number + k) as u64);
+    for (name, _) in argil_fuzz::TARGETS.iter().filter(|(name, _)| !name.starts_with("read_")) {
+        // Of the name, so that the seeds of a target stay when there are more targets.
+        let own = name.bytes().fold(0, |sum: u64, byte| sum.wrapping_mul(31).wrapping_add(u64::from(byte)));
+        for length in [24, 48, 96, 192, 384] {
+            let mut random = SplitMix(own.wrapping_mul(1000).wrapping_add(length));
             let bytes: Vec<u8> = (0..length).map(|_| random.byte()).collect();
             write(name, &format!("drawn_{length}"), &bytes)?;
         }

@@ -10,6 +10,7 @@ mod draw;
 mod elastic;
 mod graph;
 mod model;
+mod offsets;
 mod pipeline;
 mod read_gcode;
 mod read_layers;
@@ -21,10 +22,12 @@ mod route;
 mod slice;
 mod support;
 mod tour;
+mod write_gcode;
 
 pub use draw::Draw;
 pub use elastic::elastic;
 pub use graph::graph;
+pub use offsets::offsets;
 pub use pipeline::pipeline;
 pub use read_gcode::read_gcode;
 pub use read_layers::read_layers;
@@ -36,14 +39,16 @@ pub use route::route;
 pub use slice::slice;
 pub use support::support;
 pub use tour::tour;
+pub use write_gcode::write_gcode;
 
 /// A target: panics where the bytes break something.
 pub type Target = fn(&[u8]);
 
 /// Every target with its name, which is that of its folder in `seeds/` too.
-pub const TARGETS: [(&str, Target); 13] = [
+pub const TARGETS: [(&str, Target); 15] = [
     ("elastic", elastic),
     ("graph", graph),
+    ("offsets", offsets),
     ("pipeline", pipeline),
     ("read_gcode", read_gcode),
     ("read_layers", read_layers),
@@ -55,4 +60,5 @@ pub const TARGETS: [(&str, Target); 13] = [
     ("slice", slice),
     ("support", support),
     ("tour", tour),
+    ("write_gcode", write_gcode),
 ];

@@ -149,17 +149,26 @@ fn vertex_crossings(points: &[DVec2]) -> Vec<Crossing> {
         return Vec::new();
     }
     let at = |k: usize| points[kept[k % m]];
+    // The nearest vertex of the strand that is not at the place of vertex i: from there it comes, or there it goes.
+    let end = |i: usize, from: usize, step: usize| {
+        let away = (1..m).map(|k| from + k * step).find(|&k| at(k).distance(at(i)) > SAME_PLACE);
+        at(away.unwrap_or(from))
+    };
+    let ends = |i: usize, of: usize| [end(i, of, m - 1), end(i, of, 1)];
     let places: Vec<DVec2> = kept.iter().map(|&k| points[k]).collect();
     let index = PointIndex::new(&places, mean_step(points));
     let mut found = Vec::new();
     for i in 0..m {
         // A little more, since distances are compared below.
         index.for_each_within(Segment::new(at(i), at(i)), 1.001 * SAME_PLACE, |j| {
+            let coincide = |i: usize, j: usize| at(i).distance(at(j)) <= SAME_PLACE;
             let neighbours = j <= i + 1 || j - i == m - 1;
-            if neighbours || at(i).distance(at(j)) > SAME_PLACE {
+            // Where a strand has several vertices at the place, the first of them stands for all.
+            let told = neighbours || coincide(i, j + m - 1) || coincide(i + m - 1, j);
+            if told || !coincide(i, j) {
                 return;
             }
-            if ends_alternate(at(i), [at(i + m - 1), at(i + 1)], [at(j + m - 1), at(j + 1)]) {
+            if ends_alternate(at(i), ends(i, i), ends(i, j)) {
                 let (first, second) = (kept[i], kept[j]);
                 found.push(Crossing { first, second, point: at(i), kind: CrossingKind::AtVertex });
             }
@@ -205,6 +214,19 @@ mod tests {
         assert!(crossings(&eight).is_empty(), "two triangles that touch at their tips do not cross");
         let eight = [(0.0, 0.0), (1.0, 1.0), (2.0, 2.0), (2.0, 0.0), (1.0, 1.0), (0.0, 2.0)];
         assert_eq!(crossings(&eight), [(1, 4, CrossingKind::AtVertex)]);
+    }
+
+    #[test]
+    fn a_strand_may_have_several_vertices_at_one_place() {
+        // Down and up again from the right, past a strand that comes from the left; its vertex is there twice.
+        let beside =
+            [(2.0, -0.1), (0.0, 0.0), (-0.2, -2.0), (-2.0, 0.5), (-1e-4, 0.0), (0.0, 0.0), (2.0, 0.1)];
+        assert!(crossings(&beside).is_empty(), "they touch");
+        let [mut across, mut first, mut second] = [beside, beside, beside];
+        (across[0].1, across[6].1) = (0.1, -0.1);
+        assert_eq!(crossings(&across), [(1, 4, CrossingKind::AtVertex)], "once");
+        (first[4], second[4]) = ((5e-5, 5e-5), (0.0, 1e-4));
+        assert_eq!((crossings(&first), crossings(&second)), (vec![], vec![]));
     }
 
     #[test]
