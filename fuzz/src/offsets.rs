@@ -15,6 +15,9 @@ const MOST_SHAPES: usize = 8;
 /// The kernel rounds to a hundredth of a micrometre at these sizes.
 const ROUNDING: f64 = 1e-5;
 
+/// What is thinner has no side, mm.
+const THINNEST: f64 = 1e-6;
+
 /// Offsets of any region, inward and outward: its fill crosses nothing and stays inside, its safeguard keeps its distance.
 pub fn offsets(bytes: &[u8]) {
     let mut draw = Draw::new(bytes);
@@ -105,7 +108,12 @@ fn keeps_its_distance(region: &MultiPolygon<f64>) {
     let settings = SafeguardSettings::for_width(WIDTH);
     let envelope = safeguards(&[region.clone(), MultiPolygon(Vec::new())], &settings);
     for line in rings(region).flat_map(LineString::lines) {
-        for p in [line.start, (line.start + line.end) * 0.5] {
+        let inward = Coord { x: -line.dy(), y: line.dx() } * (THINNEST / line.dx().hypot(line.dy()));
+        for p in [0.1, 0.5, 0.9].map(|share| line.start + line.delta() * share) {
+            // A needle without any width is no wall.
+            if !region.contains(&Point::from(p + inward)) {
+                continue;
+            }
             assert!(envelope[0].contains(&Point::from(p)), "{p:?} is outside of its safeguard");
             let away = distance(&envelope[0], DVec2::new(p.x, p.y));
             assert!(away >= settings.dilation - ROUNDING, "the safeguard is {away} mm from {p:?}");

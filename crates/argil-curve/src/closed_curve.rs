@@ -27,6 +27,23 @@ const MOST_SAMPLES: f64 = 16_777_216.0;
 /// assert_eq!(square.signed_area(), 4.0);
 /// # Ok::<(), argil_curve::CurveError>(())
 /// ```
+///
+/// A place on it is an arc length, or a segment and a share of it:
+/// ```
+/// use argil_curve::{ClosedCurve, DVec2, NearestOnCurve, OnCurve};
+/// let square = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)];
+/// let square = ClosedCurve::new(square.map(DVec2::from).to_vec())?;
+/// assert_eq!((square.segment_count(), square.arc_of(3)), (4, 6.0));
+/// assert_eq!(square.locate(3.0), OnCurve { segment: 1, t: 0.5 });
+/// assert_eq!((square.wrapped(9.5), square.arc_gap(0.5, 7.0)), (1.5, 1.5));
+/// // The nearest place of all, and that of one segment.
+/// let p = DVec2::new(1.0, -3.0);
+/// let nearest = NearestOnCurve { segment: 0, s: 1.0, point: DVec2::new(1.0, 0.0), distance: 3.0 };
+/// assert_eq!((square.nearest(p), square.on_segment(2, p).s), (nearest, 5.0));
+/// // Begun in the middle of a side, which becomes a vertex.
+/// assert_eq!(square.rotated_to(1.0).points()[..2], [(1.0, 0.0), (2.0, 0.0)].map(DVec2::from));
+/// # Ok::<(), argil_curve::CurveError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "Vec<DVec2>", into = "Vec<DVec2>"))]

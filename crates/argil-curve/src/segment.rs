@@ -7,10 +7,13 @@ use robust::{Coord, orient2d};
 ///
 /// # Example
 /// ```
-/// use argil_curve::{DVec2, Segment};
+/// use argil_curve::{DVec2, NearestOnSegment, Segment};
 /// let segment = Segment::new(DVec2::ZERO, DVec2::new(4.0, 0.0));
-/// let nearest = segment.nearest(DVec2::new(1.0, 3.0));
+/// let nearest: NearestOnSegment = segment.nearest(DVec2::new(1.0, 3.0));
 /// assert_eq!((nearest.t, nearest.distance), (0.25, 3.0));
+/// let beside = Segment::new(DVec2::new(1.0, 2.0), DVec2::new(9.0, 2.0));
+/// assert_eq!(segment.distance_to(&beside), 2.0);
+/// assert!(segment.is_boxed_beyond(&beside, 1.5) && !segment.is_boxed_beyond(&beside, 2.5));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

@@ -22,11 +22,14 @@ const FEW_CELLS: f64 = 2.0;
 ///
 /// # Example
 /// ```
-/// use argil_curve::{DVec2, Segment, SegmentIndex};
+/// use argil_curve::{DVec2, NearestSegment, Segment, SegmentIndex};
 /// let rail = |y: f64| Segment::new(DVec2::new(0.0, y), DVec2::new(10.0, y));
 /// let index = SegmentIndex::new(vec![rail(0.0), rail(3.0)], 1.0);
-/// let nearest = index.nearest(DVec2::new(5.0, 2.0)).unwrap();
+/// let nearest: NearestSegment = index.nearest(DVec2::new(5.0, 2.0)).unwrap();
 /// assert_eq!((nearest.index, nearest.distance), (1, 1.0));
+/// let mut near = Vec::new();
+/// index.for_each_near(rail(-0.5), 0.6, |k, _| near.push(k));
+/// assert_eq!(near, [0]);
 /// assert!(index.nearest_within(DVec2::new(5.0, 1.5), 1.0).is_none());
 /// ```
 #[derive(Clone, Debug)]

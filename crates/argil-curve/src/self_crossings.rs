@@ -56,12 +56,10 @@ pub enum CrossingKind {
 ///
 /// # Example
 /// ```
-/// use argil_curve::{CrossingKind, DVec2, self_crossings};
+/// use argil_curve::{Crossing, CrossingKind, DVec2, self_crossings};
 /// let bow_tie = [(0.0, 0.0), (2.0, 2.0), (2.0, 0.0), (0.0, 2.0)].map(DVec2::from);
-/// let found = self_crossings(&bow_tie);
-/// assert_eq!(found.len(), 1);
-/// assert_eq!((found[0].first, found[0].second, found[0].kind), (0, 2, CrossingKind::Proper));
-/// assert_eq!(found[0].point, DVec2::new(1.0, 1.0));
+/// let crossing = Crossing { first: 0, second: 2, point: DVec2::new(1.0, 1.0), kind: CrossingKind::Proper };
+/// assert_eq!(self_crossings(&bow_tie), [crossing]);
 /// ```
 #[must_use]
 pub fn self_crossings(points: &[DVec2]) -> Vec<Crossing> {

@@ -3,6 +3,20 @@
 use crate::FillError;
 
 /// How rings become one curve.
+///
+/// # Example
+/// ```
+/// use argil_fill::{Figures, FillOptions, FillPattern, fill};
+/// use geo_types::{MultiPolygon, polygon};
+/// let plate = polygon![(x: 0.0, y: 0.0), (x: 30.0, y: 0.0), (x: 30.0, y: 20.0), (x: 0.0, y: 20.0)];
+/// let figures = |pattern| -> Result<Figures, argil_fill::FillError> {
+///     let options = FillOptions { pattern, ..FillOptions::for_width(1.5) };
+///     Ok(fill(&MultiPolygon(vec![plate.clone()]), &[], &options, &[])?.figures)
+/// };
+/// // What runs round and round has fewer places where rings are joined.
+/// assert!(figures(FillPattern::Spirals)?.rings < figures(FillPattern::Rings)?.rings);
+/// # Ok::<(), argil_fill::FillError>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]

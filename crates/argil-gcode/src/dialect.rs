@@ -48,6 +48,24 @@ impl fmt::Display for Flavour {
 }
 
 /// How paste is asked for.
+///
+/// # Example
+/// ```
+/// use argil_gcode::{Extrusion, FILAMENT_1_75, GcodeSettings, strand};
+/// use strand::{BeadShape, DVec2, Move, Role, Strand, StrandLayer};
+/// let mut settings = GcodeSettings { mm3_per_e: 6.4, ..GcodeSettings::default() };
+/// assert_eq!(settings.paste_per_e(), 6.4);
+/// settings.extrusion = Extrusion::Volumetric { diameter: FILAMENT_1_75 };
+/// assert_eq!(settings.paste_per_e(), 1.0);
+/// // What pushes without being told is fast where the bead is thin.
+/// let there_and_back = [(9.0, 0.0), (0.0, 0.0)].map(|at| Move { to: at.into(), role: Role::Wall });
+/// let layer = StrandLayer { index: 0, z: 0.5, height: 0.5, width: 1.5, moves: there_and_back.into(), supports: vec![] };
+/// let strand = Strand::new(DVec2::ZERO, vec![layer])?;
+/// settings = GcodeSettings { extrusion: Extrusion::Constant { rate: 15.0 }, bead: BeadShape::Box, ..settings };
+/// assert_eq!(settings.speed(&strand, 0), 20.0);
+/// assert!(strand.steps().all(|step| settings.speed_of(&strand, &step) == 20.0));
+/// # Ok::<(), strand::StrandError>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]

@@ -41,6 +41,17 @@ pub enum Fault {
 }
 
 /// A line that could not be read as it was meant.
+///
+/// # Example
+/// ```
+/// use argil_gcode::{ARC_TOLERANCE, BadLine, Fault, read_gcode};
+/// let program = read_gcode("G20\nG2 X10 Y0 I1 J0 E1\nG2 X20 Y0 I5 J0 E2\n");
+/// let inches = BadLine { line: 1, fault: Fault::Inches };
+/// assert_eq!(program.bad_lines, [inches, BadLine { line: 2, fault: Fault::BadArc }]);
+/// // The arc on line 2 fits its ends nowhere, that on line 3 is half a circle in short moves.
+/// let length: f64 = program.moves[1..].iter().map(argil_gcode::Move::planar_length).sum();
+/// assert!((length - 5.0 * std::f64::consts::PI).abs() < ARC_TOLERANCE * program.moves.len() as f64);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct BadLine {

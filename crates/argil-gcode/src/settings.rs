@@ -71,6 +71,14 @@ impl RoleNames {
     }
 
     /// The words of OrcaSlicer's g-code viewer.
+    ///
+    /// # Example
+    /// ```
+    /// use argil_gcode::{RoleNames, strand::Role};
+    /// assert_eq!(RoleNames::default(), RoleNames::prusa_slicer());
+    /// assert_eq!(RoleNames::orca_slicer().name(Role::Wall), "Outer wall");
+    /// assert_eq!(RoleNames::cura().role("SUPPORT"), Some(Role::Support));
+    /// ```
     #[must_use]
     pub fn orca_slicer() -> Self {
         let words = ["Outer wall", "Support", "Support interface", "Custom"];

@@ -1,6 +1,16 @@
 use glam::DVec2;
 
 /// Which of the caller's lists a point came from.
+///
+/// # Example
+/// ```
+/// use argil_graph::{DVec2, FreeSpace, GraphError, Nodes, PathGraph, PointKind};
+/// let square = [(0.0, 0.0), (9.0, 0.0), (9.0, 9.0), (0.0, 9.0)].map(DVec2::from);
+/// let space = FreeSpace { outer: Some(&square), holes: vec![&square[..2]] };
+/// let nodes = Nodes { attachments: &[], terminals: &[], steiner: &[], spacing: 1.0 };
+/// let refused = PathGraph::build(&space, &nodes, |a, b| a.distance(b)).unwrap_err();
+/// assert_eq!(refused, GraphError::ShortLoop { kind: PointKind::Hole(0), vertices: 2 });
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum PointKind {

@@ -55,6 +55,11 @@ impl PathGraph {
     /// let corners = vec![dvec2(0.0, 0.0), dvec2(1.0, 0.0), dvec2(1.0, 1.0)];
     /// let graph = PathGraph::from_edges(corners, &[], &[0, 2], &[(0, 1, 1.0), (1, 2, 1.0), (0, 2, 5.0)])?;
     /// assert_eq!(graph.path(0, 2), Some(vec![0, 1, 2]));
+    /// assert_eq!(graph.paths_from(0, &[2, 7]), [Some(vec![0, 1, 2]), None]);
+    /// assert_eq!((graph.vertex_count(), graph.edge_count(), graph.positions()[1]), (3, 3, dvec2(1.0, 0.0)));
+    /// assert_eq!(graph.neighbours(0).collect::<Vec<_>>(), [(1, 1.0), (2, 5.0)]);
+    /// // There is no attachment, and no third terminal.
+    /// assert!(!graph.is_attachment(0) && graph.terminal(2) == PathGraph::NO_VERTEX);
     /// # Ok::<(), argil_graph::GraphError>(())
     /// ```
     pub fn from_edges(

@@ -63,6 +63,22 @@ impl PathGraph {
     ///
     /// # Complexity
     /// O(T log T), and the elimination if this is the first search in the graph.
+    ///
+    /// # Example
+    /// ```
+    /// use argil_graph::PathGraph;
+    /// use glam::dvec2;
+    ///
+    /// let row: Vec<_> = (0..5).map(|k| dvec2(f64::from(k), 0.0)).collect();
+    /// let graph = PathGraph::from_edges(row, &[], &[], &[(0, 1, 1.0), (1, 2, 1.0), (2, 3, 1.0), (3, 4, 1.0)])?;
+    /// let mut wanted = [4, 0, 2];
+    /// graph.arrange(&mut wanted);
+    /// let distances = graph.distances(&wanted);
+    /// for (k, &v) in wanted.iter().enumerate() {
+    ///     assert_eq!(distances.get(0, k), f64::from(wanted[0].abs_diff(v)));
+    /// }
+    /// # Ok::<(), argil_graph::GraphError>(())
+    /// ```
     pub fn arrange(&self, vertices: &mut [u32]) {
         let hierarchy = self.hierarchy();
         vertices.sort_by_key(|&v| hierarchy.rank(v).unwrap_or(u32::MAX));

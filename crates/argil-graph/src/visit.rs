@@ -20,12 +20,16 @@ use crate::PathGraph;
 ///
 /// # Example
 /// ```
-/// use argil_graph::PathGraph;
+/// use argil_graph::{Edges, PathGraph, SeenFrom};
 /// use glam::dvec2;
+/// use petgraph::visit::IntoEdges;
 ///
 /// let row = (0..3).map(|k| dvec2(f64::from(k), 0.0)).collect();
 /// let graph = PathGraph::from_edges(row, &[1], &[], &[(0, 1, 2.0), (1, 2, 2.0)])?;
-/// let lengths = petgraph::algo::dijkstra(graph.seen_from(0), 0, None, |edge| *edge.2);
+/// let seen: SeenFrom = graph.seen_from(0);
+/// let mut steps: Edges = seen.edges(0);
+/// assert_eq!(steps.next(), Some((0, 1, &2.0)));
+/// let lengths = petgraph::algo::dijkstra(seen, 0, None, |edge| *edge.2);
 /// assert_eq!((lengths.get(&1), lengths.get(&2)), (Some(&2.0), None));
 /// # Ok::<(), argil_graph::GraphError>(())
 /// ```
