@@ -1,6 +1,12 @@
 //! The figures of a print.
 
 /// A figure's value.
+///
+/// # Example
+/// ```
+/// use argil_audit::Amount;
+/// assert_eq!((Amount::Count(3).value(), Amount::Measure(0.5).value()), (3.0, 0.5));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Amount {
     /// How many.

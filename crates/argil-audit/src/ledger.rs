@@ -44,6 +44,20 @@ impl ContactCause {
 }
 
 /// A place where non-model strand lies within one bead of the model's wall, outside of the model.
+///
+/// # Example
+/// ```
+/// use argil_audit::{AuditSettings, ContactCause, ContactPlace, audit, gcode::read_gcode, mesh::Mesh};
+/// let plate = Mesh::cuboid([0.0; 3], [20.0, 20.0, 0.5])?;
+/// // A strand that leaves the wall, and comes back to it one bead farther on.
+/// let lap = "M83\nG0 X.75 Y.75 Z.5\n;LAYER:0\nG1 X19.25 E1\nG1 Y9 E1\n;TYPE:SUPPORT\nG1 X30 E1\nG1 Y10.5 E1\nG1 X19.25 E1\n";
+/// let rest = ";TYPE:WALL-OUTER\nG1 Y19.25 E1\nG1 X.75 E1\nG1 Y.75 E1\n";
+/// let report = audit(&read_gcode(&format!("{lap}{rest}")), &plate, &AuditSettings::default())?;
+/// let place: ContactPlace = report.contacts[0];
+/// assert_eq!((place.cause, place.layer), (ContactCause::Root, 0));
+/// assert_eq!(report.contacts_by_cause()[0].0, ContactCause::Root);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]

@@ -7,6 +7,14 @@ use crate::{CalibrateError, Calibration};
 
 /// Clear widths of the windows of [`Calibration::windows`], in bead widths: from left to right, the even ones along the
 /// front, the odd ones along the back.
+///
+/// # Example
+/// ```
+/// use argil_calibrate::{Calibration, GAPS};
+/// // The third lintel is straight, the next one hangs through.
+/// let width = Calibration::default().width;
+/// assert!((GAPS[2] * width - 2.4).abs() < 1e-9, "ε_along, mm");
+/// ```
 pub const GAPS: [f64; 10] = [1.0, 1.25, 1.6, 2.0, 2.5, 3.0, 3.5, 4.0, 5.0, 6.0];
 
 /// Bead widths between the two sides of a pillar, from middle to middle, so that they do not merge.

@@ -34,6 +34,7 @@ const MOST_SAMPLES: f64 = 16_777_216.0;
 /// let square = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)];
 /// let square = ClosedCurve::new(square.map(DVec2::from).to_vec())?;
 /// assert_eq!((square.segment_count(), square.arc_of(3)), (4, 6.0));
+/// assert_eq!((square.segments().count(), square.resampled(0.5).len()), (4, 16));
 /// assert_eq!(square.locate(3.0), OnCurve { segment: 1, t: 0.5 });
 /// assert_eq!((square.wrapped(9.5), square.arc_gap(0.5, 7.0)), (1.5, 1.5));
 /// // The nearest place of all, and that of one segment.

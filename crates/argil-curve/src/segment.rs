@@ -13,6 +13,7 @@ use robust::{Coord, orient2d};
 /// assert_eq!((nearest.t, nearest.distance), (0.25, 3.0));
 /// let beside = Segment::new(DVec2::new(1.0, 2.0), DVec2::new(9.0, 2.0));
 /// assert_eq!(segment.distance_to(&beside), 2.0);
+/// assert!(segment.is_within(DVec2::new(2.0, 0.4), 0.5) && !segment.crosses(&beside));
 /// assert!(segment.is_boxed_beyond(&beside, 1.5) && !segment.is_boxed_beyond(&beside, 2.5));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -43,7 +43,7 @@ const LEG_APART: f64 = 0.1;
 /// A detour takes no more than `wall_cut` (mm) out of a wall: there it is a spur.
 pub(crate) fn mended(
     curves: &mut [FillCurve],
-    strand: &Strand,
+    strand: &Strand<'_>,
     discs: &[BareDisc],
     wall_cut: f64,
 ) -> Vec<[DVec2; 2]> {
@@ -70,8 +70,10 @@ pub(crate) fn mended(
 }
 
 /// All strand, for questions of distance.
-pub(crate) struct Strand {
+pub(crate) struct Strand<'a> {
     pub(crate) index: SegmentIndex,
+    /// The edges of the region, which no detour of fill crosses.
+    edges: &'a SegmentIndex,
     /// Each curve, if its segments have the same numbers as its beads.
     closed: Vec<Option<ClosedCurve>>,
     /// Curve and segment of each segment of the index.
@@ -80,8 +82,8 @@ pub(crate) struct Strand {
     grid: f64,
 }
 
-impl Strand {
-    pub(crate) fn new(curves: &[FillCurve], width: f64, grid: f64) -> Self {
+impl<'a> Strand<'a> {
+    pub(crate) fn new(curves: &[FillCurve], edges: &'a SegmentIndex, width: f64, grid: f64) -> Self {
         let mut owner: Vec<(usize, usize)> = Vec::new();
         let mut segments: Vec<Segment> = Vec::new();
         for (k, curve) in curves.iter().enumerate() {
@@ -98,7 +100,7 @@ impl Strand {
                 closed.filter(|c| c.segment_count() == curve.points.len())
             })
             .collect();
-        Self { index: SegmentIndex::new(segments, width), closed, owner, width, grid }
+        Self { index: SegmentIndex::new(segments, width), edges, closed, owner, width, grid }
     }
 
     /// The nearest segments of fill and of wall.
@@ -195,6 +197,10 @@ impl Strand {
         let legs = [Segment::new(from, tip), Segment::new(to, tip)];
         let mut clear = true;
         for leg in legs {
+            // Walls that were given lie beside the region, and those of its own shut it in.
+            if walls == 0 {
+                self.edges.for_each_near(leg, 0.0, |_, edge| clear &= !leg.crosses(&edge));
+            }
             // Its base lies on the curve itself.
             let inner = Segment::new(leg.point_at(0.05), tip);
             self.index.for_each_near(leg, LEG_APART * self.width, |k, other| {

@@ -119,7 +119,7 @@ pub fn fill(
     let limit = options.bare * w;
     // What is narrower than a residue loop's strip stays bare as the option has it.
     let mended_from = limit.max(options.residue * w);
-    let mut strand = Strand::new(&curves, w, options.grid);
+    let mut strand = Strand::new(&curves, &fence.index, w, options.grid);
     let mut surveys: Vec<Survey<'_>> =
         own.cores.iter().map(|core| Survey::new(core, &strand.index)).collect();
     let mut found = scan_all(&surveys, &strand, w, limit);
@@ -132,7 +132,7 @@ pub fn fill(
             break;
         }
         detours += made.len();
-        strand = Strand::new(&curves, w, options.grid);
+        strand = Strand::new(&curves, &fence.index, w, options.grid);
         surveys.iter_mut().for_each(|survey| survey.renew(&made, &strand.index, w));
         found = scan_all(&surveys, &strand, w, limit);
     }
@@ -181,7 +181,7 @@ fn with_rings_that_are_some(region: &MultiPolygon<f64>) -> MultiPolygon<f64> {
     )
 }
 
-fn scan_all(surveys: &[Survey<'_>], strand: &Strand, width: f64, limit: f64) -> Scan {
+fn scan_all(surveys: &[Survey<'_>], strand: &Strand<'_>, width: f64, limit: f64) -> Scan {
     let mut all = Scan::default();
     for survey in surveys {
         let own = scan(survey, &strand.index, width, limit);

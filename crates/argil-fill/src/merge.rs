@@ -37,10 +37,10 @@ pub struct Merged {
 ///
 /// # Example
 /// ```
-/// use argil_fill::{DVec2, FillOptions, Ring, merge};
+/// use argil_fill::{DVec2, FillOptions, Merged, Ring, merge};
 /// let square = |half: f64| [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|c| half * DVec2::from(c)).to_vec();
 /// let walls = [Ring { points: square(9.25), wall: Some(0) }, Ring { points: square(7.75), wall: Some(1) }];
-/// let merged = merge(&walls, &FillOptions::for_width(1.5), &[])?;
+/// let merged: Merged = merge(&walls, &FillOptions::for_width(1.5), &[])?;
 /// assert_eq!((merged.curves.len(), merged.joints.len()), (1, 1));
 /// # Ok::<(), argil_fill::FillError>(())
 /// ```

@@ -114,6 +114,16 @@ impl RoleNames {
 }
 
 /// How a strand is written as g-code.
+///
+/// # Example
+/// ```
+/// use argil_gcode::{Extrusion, Flavour, GcodeError, GcodeSettings};
+/// let klipper = GcodeSettings { flavour: Flavour::Klipper, relative_e: false, ..GcodeSettings::default() };
+/// assert_eq!(klipper.check(), Ok(()));
+/// // Klipper knows no E in mm³.
+/// let volumetric = GcodeSettings { extrusion: Extrusion::Volumetric { diameter: 1.75 }, ..klipper };
+/// assert!(matches!(volumetric.check(), Err(GcodeError::Dialect { flavour: Flavour::Klipper, .. })));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]

@@ -11,6 +11,7 @@ pub(crate) const NOWHERE: u32 = u32::MAX;
 /// let distances: DistanceMatrix = graph.distances(&[2, 0]);
 /// assert_eq!(distances.row(0), [0.0, 7.0]);
 /// assert_eq!(distances.get(0, 9), f64::INFINITY);
+/// assert!(distances.len() == 2 && !distances.is_empty());
 /// # Ok::<(), argil_graph::GraphError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]

@@ -9,6 +9,8 @@
 /// let table: EdgeTable = Mesh::cuboid([0.0; 3], [1.0, 1.0, 1.0])?.edges();
 /// assert_eq!(table.ends().len(), 18); // twelve of the box, and a diagonal a side
 /// assert!(table.triangle_counts().iter().all(|&count| count == 2));
+/// let [first, ..] = table.of_triangles()[0];
+/// assert!(table.ends()[first as usize][0] < table.ends()[first as usize][1]);
 /// # Ok::<(), argil_mesh::MeshError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -18,6 +18,14 @@ pub struct Mesh {
 }
 
 /// The smallest box with axis-parallel sides that holds a mesh, in millimetres.
+///
+/// # Example
+/// ```
+/// use argil_mesh::{Bounds, Mesh};
+/// let bounds: Bounds = Mesh::cuboid([0.0; 3], [4.0, 6.0, 8.0])?.bounds();
+/// assert_eq!((bounds.size(), bounds.centre()), ([4.0, 6.0, 8.0], [2.0, 3.0, 4.0]));
+/// # Ok::<(), argil_mesh::MeshError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Bounds {
@@ -171,6 +179,16 @@ impl Mesh {
     ///
     /// # Complexity
     /// Near linear in the number of triangles; where shells are inside out, each of them is sought in every larger one.
+    ///
+    /// # Example
+    /// ```
+    /// use argil_mesh::Mesh;
+    /// let cube = Mesh::cuboid([0.0; 3], [2.0; 3])?;
+    /// let turned = cube.triangles().iter().map(|&[a, b, c]| [a, c, b]).collect();
+    /// let inside_out = Mesh::new(cube.vertices().to_vec(), turned)?;
+    /// assert_eq!((inside_out.signed_volume(), inside_out.oriented().signed_volume()), (-8.0, 8.0));
+    /// # Ok::<(), argil_mesh::MeshError>(())
+    /// ```
     #[must_use]
     pub fn oriented(&self) -> Self {
         self.turned_outwards(&mut Repairs::default())

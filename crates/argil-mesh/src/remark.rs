@@ -1,6 +1,17 @@
 use std::fmt;
 
 /// Something of a file that was not taken as it stands, although it could be read.
+///
+/// # Example
+/// ```
+/// use argil_mesh::{Format, Remark, Soup};
+/// let mut bytes = Soup::cuboid([0.0; 3], [1.0; 3]).to_stl();
+/// // A program that writes triangles as they come, and never returns to their number.
+/// bytes[80..84].copy_from_slice(&u32::MAX.to_le_bytes());
+/// let soup = Format::Stl.read(&bytes)?;
+/// assert_eq!(soup.remarks, [Remark::Count { declared: u64::from(u32::MAX), present: 12 }]);
+/// # Ok::<(), argil_mesh::MeshError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]

@@ -1,6 +1,12 @@
 use std::fmt;
 
 /// A unit of length that model files are made in.
+///
+/// # Example
+/// ```
+/// use argil_mesh::Unit;
+/// assert_eq!(Unit::named("inch").map(Unit::millimetres), Some(25.4));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]

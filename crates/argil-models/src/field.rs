@@ -18,6 +18,26 @@ use glam::{DVec2, DVec3};
 /// assert_eq!(dumb_bell.distance(DVec3::X * 20.0), -5.0);
 /// assert_eq!(dumb_bell.distance(DVec3::X * 10.0), 5.0);
 /// ```
+///
+/// A mug: a thing with a foot, a hollow and a handle, cut off at the rim.
+/// ```
+/// use argil_models::{DVec3, Field};
+/// let [inner, outer] = [18.0, 20.0].map(|radius| Field::cylinder(DVec3::ZERO.truncate(), radius, 0.0, 50.0));
+/// let foot = Field::rounded_box(DVec3::new(-12.0, -12.0, -4.0), DVec3::new(12.0, 12.0, 1.0), 0.5);
+/// let handle = Field::torus(DVec3::new(20.0, 0.0, 20.0), DVec3::Y, 10.0, 3.0).without(outer.clone());
+/// let spout = Field::limb(&[(DVec3::new(-19.0, 0.0, 30.0), 2.0), (DVec3::new(-28.0, 0.0, 44.0), 1.5)]);
+/// let below_the_rim = Field::half_space(DVec3::Z * 40.0, DVec3::Z);
+/// let parts = [outer, foot, handle, spout].into_iter().fold(Field::empty(), Field::union);
+/// let mug = parts.carved(inner.clone().translated(DVec3::Z * 3.0), 0.5).common(below_the_rim);
+/// let is_clay = |x: f64, z: f64| mug.distance(DVec3::new(x, 0.0, z)) < 0.0;
+/// assert!(is_clay(19.0, 20.0) && is_clay(30.0, 20.0) && is_clay(0.0, -2.0) && is_clay(-22.0, 34.5));
+/// assert!(!is_clay(0.0, 20.0) && !is_clay(24.0, 20.0) && !is_clay(19.0, 41.0));
+/// // A tube with its handle on the other side.
+/// let pipe = Field::tube((18.0, 20.0), (0.0, 40.0), 0.5).union(mug.turned(std::f64::consts::PI));
+/// assert!(pipe.distance(DVec3::new(-30.0, 0.0, 20.0)) < 0.0);
+/// // All that is none of the hollow.
+/// assert!(inner.inverted().distance(DVec3::Z) > 0.0);
+/// ```
 #[derive(Clone)]
 pub struct Field {
     distance: Arc<dyn Fn(DVec3) -> f64 + Send + Sync>,

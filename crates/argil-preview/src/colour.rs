@@ -15,6 +15,7 @@ pub(crate) const COATS: [Role; 6] =
 /// use argil_preview::Colour;
 /// let grey = Colour::new(0, 0, 0).towards(Colour::WHITE, 0.5);
 /// assert_eq!(grey.to_string(), "#808080");
+/// assert_eq!(Colour::DARK.to_string(), "#2b2320");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -59,6 +60,14 @@ impl fmt::Display for Colour {
 ///
 /// The default is terracotta for what stays in the part (fill paler than walls), slate blue for support and ochre for
 /// connections, a stony grey for the skirt: apart in hue and in lightness, so that they also differ to most colour-blind eyes and in grey.
+///
+/// # Example
+/// ```
+/// use argil_preview::{Colour, Palette, strand::Role};
+/// let palette = Palette { support: Colour::WHITE, ..Palette::default() };
+/// assert_eq!(palette.of(Role::Support), Colour::WHITE);
+/// assert_ne!(palette.of(Role::Wall), palette.of(Role::Connection));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]

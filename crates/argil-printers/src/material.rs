@@ -57,6 +57,15 @@ impl Material {
     ///
     /// # Errors
     /// Text that is no profile, a value from a source that is not listed, or a number that cannot be.
+    ///
+    /// # Example
+    /// ```
+    /// use argil_printers::{Material, materials};
+    /// let (_, text) = materials().iter().find(|(name, _)| *name == "stoneware").ok_or("not bundled")?;
+    /// let own = Material::from_toml(&text.replacen("name = ", "name = 'Own ' # ", 1))?;
+    /// assert_eq!(own.name, "Own ");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn from_toml(text: &str) -> Result<Self, ProfileError> {
         let material: Self = toml::from_str(text)?;
         material.check()?;

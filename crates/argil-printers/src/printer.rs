@@ -87,6 +87,24 @@ pub enum Bead {
 }
 
 /// A printer. Lengths in mm, speeds in mm/s.
+///
+/// # Example
+/// ```
+/// use argil_printers::{Bead, Fact, Flavour, Origin, Printer, ProfileError, Volume};
+/// let bundled = Printer::bundled("generic-marlin").expect("it is bundled")?;
+/// // The same with a bed of one's own; a file of one's own is read by `from_toml`.
+/// let own = Printer {
+///     volume: Fact::Known { value: Volume::Box { x: 200.0, y: 200.0, z: 300.0 }, source: "argil".into(), note: None },
+///     origin: Fact::Known { value: Origin::Corner, source: "argil".into(), note: None },
+///     ..bundled.clone()
+/// };
+/// assert_eq!((own.middle(), own.reaches([20.0; 3], [180.0; 3])), (Some([100.0; 2]), Some(true)));
+/// assert_eq!(own.reaches([-20.0; 3], [180.0; 3]), Some(false));
+/// assert_eq!(bundled.reaches([20.0; 3], [180.0; 3]), None);
+/// assert_eq!((own.flavour.value(), own.bead.value()), (Some(&Flavour::Marlin), Some(&Bead::Rounded)));
+/// assert!(matches!(Printer::from_toml("name = 7"), Err(ProfileError::Toml(_))));
+/// # Ok::<(), ProfileError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Printer {

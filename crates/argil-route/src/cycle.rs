@@ -65,6 +65,8 @@ impl Cycle {
     #[must_use]
     pub fn length_of(&self, leg: Leg) -> f64 {
         let ends = self.points.iter().zip(self.points.iter().cycle().skip(1));
-        ends.zip(&self.legs).filter(|(_, of)| **of == leg).map(|((from, to), _)| from.distance(*to)).sum()
+        let of_leg = ends.zip(&self.legs).filter(|(_, of)| **of == leg);
+        // The standard library's sum of nothing is −0.
+        of_leg.fold(0.0, |sum, ((from, to), _)| sum + from.distance(*to))
     }
 }

@@ -30,7 +30,7 @@ pub struct Region {
 ///
 /// # Example
 /// ```
-/// use argil_route::{ClosedCurve, DVec2, Wall, regions};
+/// use argil_route::{ClosedCurve, DVec2, Region, Wall, regions};
 /// let outer = [(0.0, 0.0), (9.0, 0.0), (9.0, 9.0), (0.0, 9.0)].map(DVec2::from);
 /// let hole = [(3.0, 3.0), (3.0, 6.0), (6.0, 6.0), (6.0, 3.0)].map(DVec2::from);
 /// let walls = [Wall { points: &outer, parent: None }, Wall { points: &hole, parent: Some(0) }];
@@ -38,7 +38,7 @@ pub struct Region {
 /// let found = regions(&walls, &curves, &[DVec2::splat(4.5)])?;
 /// // All round, between the two, and in the hole.
 /// assert_eq!(found.iter().map(|region| region.outer).collect::<Vec<_>>(), [None, Some(0), Some(1)]);
-/// assert_eq!(found[2].demands, [0]);
+/// assert_eq!(found[2], Region { outer: Some(1), children: vec![], demands: vec![0] });
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn regions(

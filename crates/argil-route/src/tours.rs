@@ -106,6 +106,17 @@ pub trait Tours: Sync {
 }
 
 /// Argil's own solver ([`argil_tour`]).
+///
+/// # Example
+/// ```
+/// use argil_route::{DVec2, LayerInput, RouteSettings, Router, ShortestTours, Wall};
+/// let squares = [0.0, 20.0].map(|x| [(x, 0.0), (x + 9.0, 0.0), (x + 9.0, 9.0), (x, 9.0)].map(DVec2::from));
+/// let walls = squares.each_ref().map(|points| Wall { points, parent: None });
+/// let layer = LayerInput { walls: &walls, demands: &[], safeguard: &[], above: None, barred: &[] };
+/// let router = Router::new(RouteSettings::for_width(1.5))?;
+/// assert_eq!(router.cycle_with(&layer, &ShortestTours)?, router.cycle(&layer)?);
+/// # Ok::<(), argil_route::RouteError>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ShortestTours;
 

@@ -3,6 +3,17 @@
 use argil_curve::DVec2;
 
 /// What keeps a stack of cycles from being one strand.
+///
+/// # Example
+/// ```
+/// use argil_seam::{ClosedCurve, DVec2, SeamError, SeamSettings, seam_chain};
+/// // A ring, and above it one that is nowhere within reach.
+/// let square = |x: f64| ClosedCurve::new([(x, 0.0), (x + 9.0, 0.0), (x + 9.0, 9.0), (x, 9.0)].map(DVec2::from).to_vec());
+/// let apart = [square(0.0)?, square(20.0)?];
+/// let refused = seam_chain(&apart, &SeamSettings::for_width(1.5), &|_, _| 0.0).unwrap_err();
+/// assert!(matches!(refused, SeamError::NoStep { layer: 1, gap, .. } if gap > 10.0), "{refused}");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SeamError {

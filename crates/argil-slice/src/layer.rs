@@ -25,6 +25,17 @@ pub struct Layer {
 }
 
 /// One closed wall path.
+///
+/// # Example
+/// ```
+/// use argil_slice::{SliceSettings, WallLoop, mesh::Mesh, slice};
+/// let settings = SliceSettings { walls: 2, ..SliceSettings::default() };
+/// let layers = slice(&Mesh::cuboid([0.0; 3], [20.0, 20.0, 1.0])?, &settings)?;
+/// let inner: &WallLoop = layers[0].walls.iter().find(|wall| wall.wall == 1).ok_or("there are two walls")?;
+/// assert!(!inner.hole && inner.depth == 1);
+/// assert!(layers[0].walls[inner.parent.ok_or("it lies in the first")?].wall == 0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct WallLoop {

@@ -51,6 +51,20 @@ impl RoleLengths {
 }
 
 /// What one layer holds, for tables and reports.
+///
+/// # Example
+/// ```
+/// use argil_strand::{BeadShape, DVec2, LayerSummary, Move, Role, Strand, StrandLayer, SupportSource};
+/// let square = [(9.0, 0.0), (9.0, 9.0), (0.0, 9.0), (0.0, 0.0)].map(|at| Move { to: at.into(), role: Role::Wall });
+/// let held = SupportSource { at: DVec2::new(4.0, 0.0), needs: vec![DVec2::new(4.0, -0.3)] };
+/// let layer = StrandLayer { index: 0, z: 0.5, height: 0.5, width: 1.5, moves: square.to_vec(), supports: vec![held] };
+/// let strand = Strand::new(DVec2::ZERO, vec![layer.clone()])?;
+/// let lowest: LayerSummary = strand.summaries()[0];
+/// assert_eq!((lowest.moves, lowest.supports, lowest.lengths.of(Role::Wall)), (4, 1, 36.0));
+/// assert_eq!(strand.volume_as(BeadShape::Box), 36.0 * 1.5 * 0.5);
+/// assert_eq!(strand.into_layers(), [layer]);
+/// # Ok::<(), argil_strand::StrandError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]

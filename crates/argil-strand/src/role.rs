@@ -5,6 +5,13 @@ use std::fmt;
 /// What a stretch of the strand is laid for.
 ///
 /// The order of the variants is the order in which reports list them.
+///
+/// # Example
+/// ```
+/// use argil_strand::Role;
+/// let of_the_model = Role::ALL.into_iter().filter(|role| role.is_model());
+/// assert_eq!(of_the_model.map(Role::name).collect::<Vec<_>>(), ["wall", "fill"]);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]

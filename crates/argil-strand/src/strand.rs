@@ -169,6 +169,7 @@ impl Strand {
     /// let spiral = level.clone().risen(vec![vec![], climb.to_vec()])?;
     /// assert!(spiral.steps().all(|step| step.to.z >= step.from.z));
     /// assert!(spiral.volume() < level.volume());
+    /// assert_eq!((spiral.rises(0).len(), spiral.rises(1).len()), (0, 3));
     /// # Ok::<(), argil_strand::StrandError>(())
     /// ```
     pub fn risen(self, rises: Vec<Vec<Rise>>) -> Result<Self, StrandError> {
@@ -203,6 +204,7 @@ impl Strand {
     /// let slender = whole.clone().of_widths(vec![vec![1.5, 1.2]])?;
     /// assert_eq!(slender.steps().map(|step| step.width).collect::<Vec<_>>(), [1.5, 1.2]);
     /// assert!(slender.volume() < whole.volume());
+    /// assert!(slender.widths(0) == [1.5, 1.2] && whole.widths(0).is_empty());
     /// # Ok::<(), argil_strand::StrandError>(())
     /// ```
     pub fn of_widths(self, widths: Vec<Vec<f64>>) -> Result<Self, StrandError> {

@@ -78,6 +78,17 @@ impl Placement {
     }
 
     /// For a path below that keeps within `slack` mm of the needs, which is brought between 0 and `ε_across`.
+    ///
+    /// # Example
+    /// ```
+    /// use argil_support::{Criterion, Placement};
+    /// let stiff = Criterion { across: 0.9, ..Criterion::for_width(1.5) };
+    /// let usual = Placement::for_criterion(1.5, &stiff);
+    /// assert_eq!(usual, Placement::with_slack(1.5, &stiff, 0.65 * stiff.across));
+    /// // A path that keeps to its points needs fewer of them.
+    /// let exact = Placement::with_slack(1.5, &stiff, 0.0);
+    /// assert!(exact.cover > usual.cover && exact.slack == 0.0);
+    /// ```
     #[must_use]
     pub fn with_slack(w: f64, criterion: &Criterion, slack: f64) -> Self {
         let slack = slack.min(criterion.across).max(0.0);

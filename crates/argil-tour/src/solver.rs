@@ -178,13 +178,13 @@ fn kicks(per_node: f64, n: usize) -> usize {
 ///
 /// # Example
 /// ```
-/// use argil_tour::{MatrixMetric, TourOptions, shortest_tour};
+/// use argil_tour::{MatrixMetric, Tour, TourOptions, shortest_tour};
 ///
 /// // Five stations along a wall at 0, 4, 1, 3 and 2 m.
 /// let stations = [0.0_f64, 4.0, 1.0, 3.0, 2.0];
 /// let distances: Vec<f64> = stations.iter().flat_map(|a| stations.map(|b| (a - b).abs())).collect();
 /// let metric = MatrixMetric::new(5, &distances)?;
-/// let tour = shortest_tour(&metric, &[], None, &TourOptions::default());
+/// let tour: Tour = shortest_tour(&metric, &[], None, &TourOptions::default());
 /// assert_eq!(tour.length, 8.0);
 /// assert_eq!(tour.order[0], 0);
 /// # Ok::<(), argil_tour::TourError>(())

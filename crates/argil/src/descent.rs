@@ -239,8 +239,9 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
         }
         let (cycle, fill) = without_repeats(&cycle, &model.fill_of(&cycle, settings.width));
         let n = fill.len();
-        let fill_length: f64 =
-            (0..n).filter(|&k| fill[k]).map(|k| cycle.points[k].distance(cycle.points[(k + 1) % n])).sum();
+        let side = |k: usize| cycle.points[k].distance(cycle.points[(k + 1) % n]);
+        // The standard library's sum of nothing is −0.
+        let fill_length = (0..n).filter(|&k| fill[k]).fold(0.0, |sum, k| sum + side(k));
         let report = LayerReport {
             index: layer.index,
             walls: layer.walls.len(),

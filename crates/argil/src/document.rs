@@ -26,6 +26,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 /// use argil::{Document, Settings};
 /// let text = serde_json::to_string(&Document(Settings::for_width(3.0)))?;
 /// assert!(text.starts_with(r#"{"schema":1,"width":3.0,"#));
+/// assert_eq!(Document::<Settings>::SCHEMA, 1);
 /// let Document(settings): Document<Settings> = serde_json::from_str(&text)?;
 /// assert_eq!(settings, Settings::for_width(3.0));
 ///

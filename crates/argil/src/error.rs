@@ -44,6 +44,18 @@ pub enum PlanError {
 }
 
 /// What went wrong in a layer.
+///
+/// # Example
+/// ```
+/// use argil::{LayerFault, PlanError, Planner, Settings, curve::DVec2, route::RouteError, slice::Layer};
+/// // Two points are no wall.
+/// let line = [(0.0, 0.0), (9.0, 0.0)].map(DVec2::from).to_vec();
+/// let layer = Layer::of_loops(0, 0.5, 0.5, &[line], 1e-4);
+/// let failed = Planner::default().plan_layers(&[layer], &Settings::default()).unwrap_err();
+/// let PlanError::Layer { layer: 0, fault: LayerFault::Route(RouteError::Wall { wall: 0 }), .. } = failed else {
+///     panic!("{failed}");
+/// };
+/// ```
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LayerFault {

@@ -36,7 +36,21 @@
 //!     checked: false,
 //! };
 //! let mesh = argil::mesh::read_stl(&argil_models::by_name("columns").expect("bundled").to_stl())?;
-//! assert!(planner.plan(&mesh, &Settings::for_width(4.0))?.strand.length() > 0.0);
+//! let settings = Settings::for_width(4.0);
+//! assert!(planner.plan(&mesh, &settings)?.strand.length() > 0.0);
+//!
+//! // All others of the text's stages.
+//! let mut planner = Planner {
+//!     slice: planner.slice,
+//!     safeguard: planner.safeguard,
+//!     support: planner.support,
+//!     route: literal::SplicedRoute,
+//!     smooth: literal::LiteralElastic,
+//!     taut: argil::stages::LeftSlack,
+//!     seam: literal::NearestStarts,
+//!     checked: false,
+//! };
+//! assert_eq!(planner.plan(&mesh, &settings)?.strand, literal::planner().plan(&mesh, &settings)?.strand);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 

@@ -166,7 +166,8 @@ impl ModelLayer {
     /// Length of the sparse fill, mm.
     pub(crate) fn sparse_length(&self) -> f64 {
         let sparse = &self.loops[self.loops.len() - self.sparse.min(self.loops.len())..];
-        sides(sparse).map(|(side, _)| side.length()).sum()
+        // The standard library's sum of nothing is −0.
+        sides(sparse).fold(0.0, |sum, (side, _)| sum + side.length())
     }
 
     /// Which stretches of a cycle through these loops are fill.

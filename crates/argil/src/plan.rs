@@ -25,6 +25,19 @@ pub struct Plan {
 }
 
 /// The skirt of a plan.
+///
+/// # Example
+/// ```
+/// use argil::{Bed, Planner, Settings, Skirt, SkirtLaid, mesh::Mesh};
+/// // Five turns are asked for; a bed of 40 mm has room for fewer.
+/// let bed = Bed::Rectangle { low: [-20.0; 2], high: [20.0; 2] };
+/// let skirt = Skirt { turns: 5, bed: Some(bed), ..Skirt::default() };
+/// let settings = Settings { skirt: Some(skirt), ..Settings::for_width(2.0) };
+/// let plan = Planner::default().plan(&Mesh::cuboid([-13.0, -13.0, 0.0], [13.0, 13.0, 2.0])?, &settings)?;
+/// let laid: SkirtLaid = plan.skirt.ok_or("there is room for one")?;
+/// assert!((1..5).contains(&laid.turns) && laid.length > 4.0 * 26.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SkirtLaid {
@@ -37,6 +50,19 @@ pub struct SkirtLaid {
 }
 
 /// Which of two plans was taken: the shorter strand.
+///
+/// # Example
+/// ```
+/// use argil::{Infill, InfillChoice, Planner, Settings, mesh::Mesh};
+/// // A closed box: its roof lies over nothing.
+/// let settings = Settings { skin: 1, infill: Infill::Auto, ..Settings::for_width(2.0) };
+/// let plan = Planner::default().plan(&Mesh::cuboid([0.0; 3], [16.0, 16.0, 6.0])?, &settings)?;
+/// let InfillChoice { taken, with_mm, without_mm } = plan.infill.ok_or("there is a choice")?;
+/// let [with, without] = [with_mm, without_mm].map(|length| length.unwrap_or(f64::INFINITY));
+/// assert_eq!(taken, with < without);
+/// assert!((plan.strand.length() - with.min(without)).abs() < 1e-6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct InfillChoice {
@@ -49,6 +75,17 @@ pub struct InfillChoice {
 }
 
 /// What happened in a layer.
+///
+/// # Example
+/// ```
+/// use argil::{Climb, LayerReport, LevelCause, Plan, Planner, Settings, mesh::Mesh};
+/// let settings = Settings { spiral: true, ..Settings::for_width(2.0) };
+/// let plan: Plan = Planner::default().plan(&Mesh::cuboid([0.0; 3], [20.0, 20.0, 8.0])?, &settings)?;
+/// let [bed, rim]: [&LayerReport; 2] = [&plan.layers[0], &plan.layers[plan.layers.len() - 1]];
+/// assert_eq!((bed.walls, bed.supports, bed.level_because), (1, 0, Some(LevelCause::Bed)));
+/// assert!(rim.climb == Climb::Levelling && plan.layers[5].level_because.is_none());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]

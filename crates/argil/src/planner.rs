@@ -132,6 +132,21 @@ impl<S: Slice, G: Safeguard, U: Support, R: Route, E: Smooth, T: Tauten, C: Seam
     ///
     /// # Errors
     /// See [`PlanError`].
+    ///
+    /// # Example
+    /// ```
+    /// use argil::{Planner, Progress, Settings, mesh::Mesh};
+    ///
+    /// let (mut all, mut done) = (0, 0);
+    /// let mut bar = |progress| match progress {
+    ///     Progress::Sliced { layers } => all = layers,
+    ///     Progress::Layer { .. } => done += 1,
+    ///     _ => {}
+    /// };
+    /// Planner::default().plan_observed(&Mesh::cuboid([0.0; 3], [9.0, 9.0, 3.0])?, &Settings::default(), &mut bar)?;
+    /// assert!(all == 6 && done >= all, "{done} of {all}");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn plan_observed(
         &mut self,
         mesh: &Mesh,
@@ -193,6 +208,18 @@ impl<S: Slice, G: Safeguard, U: Support, R: Route, E: Smooth, T: Tauten, C: Seam
     ///
     /// # Errors
     /// [`PlanError::Cancelled`] when it breaks off; else see [`PlanError`].
+    ///
+    /// # Example
+    /// ```
+    /// use std::ops::ControlFlow;
+    /// use argil::{PlanError, Planner, Settings, curve::DVec2, slice::Layer};
+    ///
+    /// let square = [(0.0, 0.0), (9.0, 0.0), (9.0, 9.0), (0.0, 9.0)].map(DVec2::from).to_vec();
+    /// let layer = Layer::of_loops(0, 0.5, 0.5, &[square], 1e-4);
+    /// let mut never = |_| ControlFlow::Break(());
+    /// let outcome = Planner::default().plan_layers_controlled(&[layer], &Settings::default(), &mut never);
+    /// assert!(matches!(outcome, Err(PlanError::Cancelled)));
+    /// ```
     pub fn plan_layers_controlled(
         &mut self,
         layers: &[Layer],

@@ -94,6 +94,12 @@ pub enum Bed {
 /// let settings = Settings { walls: 2, material: stiff, ..Settings::for_width(3.0) };
 /// assert_eq!(settings.layer_height, 1.0);
 /// assert!((settings.criterion().across - 1.05).abs() < 1e-12); // mm
+/// // What each stage gets follows.
+/// assert_eq!((settings.slicing().walls, settings.slicing().layer_height), (2, 1.0));
+/// let across = settings.criterion().across;
+/// assert_eq!((settings.routing().across, settings.safeguarding().shrink), (across, across));
+/// assert_eq!((settings.tautening().across, settings.seaming().across), (across, across));
+/// assert!(settings.smoothing().envelope < across);
 /// assert!(settings.check().is_ok());
 /// assert!(Settings { walls: 0, ..settings }.check().is_err());
 /// ```

@@ -27,6 +27,27 @@
 //! assert_eq!(planner.support.0, 0, "every wall stands on the one below");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! What a planner is made of, unless told otherwise:
+//! ```
+//! use argil::stages::{BestChain, ElasticCurve, Excursions, FewestPoints, PlaneSlices, PulledTaut, SlopedSafeguard};
+//! use argil::{Planner, Settings};
+//!
+//! let mut planner = Planner {
+//!     slice: PlaneSlices,
+//!     safeguard: SlopedSafeguard,
+//!     support: FewestPoints,
+//!     route: Excursions,
+//!     smooth: ElasticCurve::default(),
+//!     taut: PulledTaut,
+//!     seam: BestChain,
+//!     checked: true,
+//! };
+//! let mesh = argil::mesh::Mesh::cuboid([0.0; 3], [9.0, 9.0, 3.0])?;
+//! let settings = Settings::default();
+//! assert_eq!(planner.plan(&mesh, &settings)?.strand, Planner::default().plan(&mesh, &settings)?.strand);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use argil_curve::{ClosedCurve, DVec2, SegmentIndex};
 use argil_elastic::{ElasticError, ElasticSolver, Path};
@@ -191,6 +212,19 @@ impl Route for Excursions {
 }
 
 /// Excursions as [`Excursions`] makes them, by tours of another solver.
+///
+/// # Example
+/// ```
+/// use argil::stages::ExcursionsBy;
+/// use argil::{Planner, Settings, route::ShortestTours};
+/// let Planner { slice, safeguard, support, smooth, taut, seam, checked, .. } = Planner::default();
+/// let route = ExcursionsBy(ShortestTours);
+/// let mut planner = Planner { slice, safeguard, support, route, smooth, taut, seam, checked };
+/// let mesh = argil::mesh::Mesh::cuboid([0.0; 3], [9.0, 9.0, 3.0])?;
+/// let settings = Settings::default();
+/// assert_eq!(planner.plan(&mesh, &settings)?.strand, Planner::default().plan(&mesh, &settings)?.strand);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ExcursionsBy<T>(pub T);
 
