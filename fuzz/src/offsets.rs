@@ -9,6 +9,9 @@ use crate::Draw;
 /// The bead's width, mm.
 const WIDTH: f64 = 1.5;
 
+/// Nearer to the edge of its region, in w, is no middle of a bead: half a bead but for what a corner that is cut off takes.
+const NEAREST: f64 = 0.47;
+
 /// Most shapes that a region is made of.
 const MOST_SHAPES: usize = 8;
 
@@ -89,7 +92,7 @@ fn is_sound(region: &MultiPolygon<f64>, fill: &Fill, options: &FillOptions) {
             let steps = points[k] / options.grid;
             assert!((steps - steps.round()).abs().max_element() < 1e-3, "{} is off the grid", points[k]);
             assert!(
-                distance(region, points[k]) > 0.49 * WIDTH,
+                distance(region, points[k]) > NEAREST * WIDTH,
                 "the bead at {} leaves the region",
                 points[k]
             );
