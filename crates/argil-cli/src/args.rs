@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use argil::Infill;
 use argil::mesh::Unit;
+use argil::{Infill, WallOrder};
 use clap::{Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
@@ -155,6 +155,26 @@ pub(crate) enum Pattern {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum OrderArg {
+    /// As the shortest steps from layer to layer have it.
+    Any,
+    /// The outermost first.
+    OuterFirst,
+    /// The outermost last.
+    OuterLast,
+}
+
+impl From<OrderArg> for WallOrder {
+    fn from(order: OrderArg) -> Self {
+        match order {
+            OrderArg::Any => Self::Any,
+            OrderArg::OuterFirst => Self::OuterFirst,
+            OrderArg::OuterLast => Self::OuterLast,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum UnitArg {
     /// 0.001 mm.
     Micron,
@@ -220,6 +240,9 @@ pub(crate) struct PlanArgs {
     pub(crate) png: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) bead: BeadArgs,
+    /// Which of several walls is laid first, as far as a start allows that a short step leads to.
+    #[arg(long, value_enum, default_value_t = OrderArg::Any)]
+    pub(crate) wall_order: OrderArg,
     /// Fill the N lowest layers whole.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) floor: usize,

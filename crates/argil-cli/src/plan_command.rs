@@ -33,6 +33,7 @@ pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
     let profiles = Profiles::of(&args.bead)?;
     let skirt = args.skirt.map(|turns| Skirt { turns, distance: args.skirt_distance, bed: profiles.bed() });
     let settings = Settings {
+        wall_order: args.wall_order.into(),
         floor: args.floor,
         skin: args.skin,
         spiral: args.spiral,

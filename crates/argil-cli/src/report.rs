@@ -174,6 +174,12 @@ pub(crate) fn summary(plan: &Plan, width: f64) -> String {
         text.push_str(&format!("skirt: {} turns, {:.2} m\n", skirt.turns, skirt.length / 1e3));
     }
     text.push_str(&climb(plan));
+    if let Some((mean, layers)) = outer_ahead(plan) {
+        text.push_str(&format!(
+            "of the outer walls {:.0} % come before the others, in the mean of {layers} layers\n",
+            100.0 * mean
+        ));
+    }
     if let Some(InfillChoice { taken, with_mm, without_mm }) = plan.infill {
         let told =
             |length: Option<f64>| length.map_or("no plan".to_owned(), |mm| format!("{:.2} m", mm / 1e3));
@@ -206,6 +212,12 @@ pub(crate) fn summary(plan: &Plan, width: f64) -> String {
 
 /// The most runs of level layers that the summary names for one reason.
 const RUNS_NAMED: usize = 6;
+
+/// The share of outer walls that come before the others, in the mean of the layers that have others, and how many these are.
+fn outer_ahead(plan: &Plan) -> Option<(f64, usize)> {
+    let shares: Vec<f64> = plan.layers.iter().filter_map(|layer| layer.outer_ahead).collect();
+    (!shares.is_empty()).then(|| (shares.iter().sum::<f64>() / shares.len() as f64, shares.len()))
+}
 
 /// How many layers of a spiral rise, and which lie level for what reason; nothing of other plans.
 fn climb(plan: &Plan) -> String {

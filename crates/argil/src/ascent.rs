@@ -8,8 +8,9 @@ use geo_types::MultiPolygon;
 
 use crate::Settings;
 use crate::descent::PlannedLayer;
-use crate::opening::{Opened, is_clear, is_simple, opened, stretches};
+use crate::opening::{Opened, is_clear, is_simple, stretches};
 use crate::passage::Walled;
+use crate::precedence::{Precedence, opened_in_order};
 
 /// How far from roots starts on a wall keep, in w, where there is a chain of such starts: a step that comes from the other side of the
 /// wall would make the strand pass straight through it, with less than a bead along the wall between. The second is tried
@@ -29,6 +30,7 @@ pub(crate) struct Ascent<'a> {
     from: Option<(DVec2, &'a ClosedCurve)>,
     layer: &'a PlannedLayer,
     sight: &'a Sight,
+    order: Option<&'a Precedence>,
     walled: Option<&'a MultiPolygon<f64>>,
     settings: &'a Settings,
     /// The walls of `walled`, once they are asked for.
@@ -39,18 +41,23 @@ impl<'a> Ascent<'a> {
     /// From where the layer below ends on its cycle, to a layer whose walls are those of `walled`.
     pub(crate) fn new(
         from: Option<(DVec2, &'a ClosedCurve)>,
-        (layer, sight): (&'a PlannedLayer, &'a Sight),
+        (layer, sight, order): (&'a PlannedLayer, &'a Sight, Option<&'a Precedence>),
         walled: Option<&'a MultiPolygon<f64>>,
         settings: &'a Settings,
     ) -> Self {
-        Self { from, layer, sight, walled, settings, walls: OnceCell::new() }
+        Self { from, layer, sight, order, walled, settings, walls: OnceCell::new() }
+    }
+
+    /// The layer opened at a start, the way round that brings its walls into their order.
+    pub(crate) fn opened(&self, start: f64) -> Opened {
+        opened_in_order(self.layer, start, self.order, self.settings.grid)
     }
 
     /// The cycle opened at `start`, or at the nearest place along it to which the step is clear, held and no longer than `reach`: a step
     /// that runs along the very strand that it ends on may cross it by one step of the grid after rounding, and a start that
     /// had to give way on the layer below is made up for here. `anywhere` on the cycle, where no place nearby will do.
     pub(crate) fn cleared(&self, start: f64, reach: f64, anywhere: bool) -> Option<Opened> {
-        let wanted = opened(self.layer, start, self.settings.grid);
+        let wanted = self.opened(start);
         if self.is_sound(&wanted, reach) {
             return Some(wanted);
         }
@@ -63,7 +70,7 @@ impl<'a> Ascent<'a> {
             if !self.is_within(self.layer.curve.point_at(arc), reach) {
                 continue;
             }
-            let place = opened(self.layer, arc, self.settings.grid);
+            let place = self.opened(arc);
             if !self.is_sound(&place, reach) {
                 continue;
             }

@@ -4,6 +4,8 @@ use argil_slice::Layer;
 use argil_strand::{Move, Role, Strand, StrandLayer, SupportSource};
 
 use crate::descent::PlannedLayer;
+use crate::opening::Opened;
+use crate::precedence::Precedence;
 use crate::skirt::Ground;
 use crate::spiral::{Lie, aligned, spiral};
 use crate::stages::Seam;
@@ -16,6 +18,8 @@ pub(crate) struct Climbed {
     /// How each layer lies; empty where no spiral was asked for.
     pub(crate) lies: Vec<Lie>,
     pub(crate) skirt: Option<SkirtLaid>,
+    /// How much of each layer's outer walls is laid ahead of the others, where an order is asked for.
+    pub(crate) ahead: Vec<Option<f64>>,
 }
 
 impl Climbed {
@@ -35,26 +39,25 @@ pub(crate) fn climbed(
     checked: bool,
 ) -> Result<Climbed, PlanError> {
     if !settings.spiral {
-        let (strand, skirt) = joined((layers, slices), seam, settings, checked)?;
-        return Ok(Climbed { strand, lies: Vec::new(), skirt });
+        return joined((layers, slices), seam, settings, checked);
     }
-    let (strand, skirt) = joined((&aligned(layers, settings)?, slices), seam, settings, checked)?;
-    let (strand, lies) = spiral(strand, settings)?;
+    let level = joined((&aligned(layers, settings)?, slices), seam, settings, checked)?;
+    let (strand, lies) = spiral(level.strand, settings)?;
     if lies.iter().any(|lie| lie.climb == Climb::Rising) {
-        return Ok(Climbed { strand, lies, skirt });
+        return Ok(Climbed { strand, lies, ..level });
     }
     // Where no layer rises, starts are hidden as they are in level layers.
-    let (strand, skirt) = joined((layers, slices), seam, &Settings { spiral: false, ..*settings }, checked)?;
-    Ok(Climbed { strand, lies, skirt })
+    let level = joined((layers, slices), seam, &Settings { spiral: false, ..*settings }, checked)?;
+    Ok(Climbed { lies, ..level })
 }
 
-/// The cycles as one strand of level layers, and its skirt.
+/// The cycles as one strand of level layers, with its skirt.
 fn joined(
     (layers, slices): (&[PlannedLayer], &[Layer]),
     seam: &mut impl Seam,
     settings: &Settings,
     checked: bool,
-) -> Result<(Strand, Option<SkirtLaid>), PlanError> {
+) -> Result<Climbed, PlanError> {
     let around = |skirt| Ground::new(&layers.first()?.curve, skirt, settings.width);
     let ground = settings.skirt.as_ref().and_then(around);
     let opened = match opened_layers((layers, slices), seam, settings, checked, ground.as_ref()) {
@@ -64,6 +67,10 @@ fn joined(
     };
     let skirt =
         ground.zip(opened.first()).and_then(|(ground, (begin, _))| ground.moves(*begin, settings.grid));
+    let ahead = |((layer, slice), (begin, _)): ((&PlannedLayer, &Layer), &Opened)| {
+        Precedence::of(layer, slice, settings).map(|order| order.laid_ahead(*begin))
+    };
+    let ahead = layers.iter().zip(slices).zip(&opened).map(ahead).collect();
     let mut start = opened.first().map(|(begin, _)| *begin).unwrap_or_default();
     let mut laid = None;
     let mut leads = vec![Vec::new(); opened.len()];
@@ -87,5 +94,5 @@ fn joined(
             supports,
         });
     }
-    Ok((Strand::new(start, strand_layers)?, laid))
+    Ok(Climbed { strand: Strand::new(start, strand_layers)?, lies: Vec::new(), skirt: laid, ahead })
 }

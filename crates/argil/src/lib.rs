@@ -41,6 +41,7 @@ mod opening;
 mod passage;
 mod plan;
 mod planner;
+mod precedence;
 mod settings;
 mod settle;
 mod skirt;
@@ -69,7 +70,7 @@ pub use document::Document;
 pub use error::{LayerFault, PlanError};
 pub use plan::{Climb, InfillChoice, LayerReport, LevelCause, Plan, SkirtLaid, StageTimes};
 pub use planner::{Planner, Progress};
-pub use settings::{Bed, Infill, Material, Settings, Skirt};
+pub use settings::{Bed, Infill, Material, Settings, Skirt, WallOrder};
 
 /// The examples of the pages for readers, so that they stay true.
 #[cfg(doctest)]

@@ -18,6 +18,12 @@ pub(crate) fn stretches((begin, moves): &Opened) -> Vec<Segment> {
     ends.zip(moves).map(|(start, m)| Segment::new(start, m.to)).collect()
 }
 
+/// The same the other way round.
+pub(crate) fn turned((begin, moves): &Opened) -> Opened {
+    let from = moves.iter().rev().skip(1).map(|m| m.to).chain([*begin]);
+    (*begin, from.zip(moves.iter().rev()).map(|(to, m)| Move { to, role: m.role }).collect())
+}
+
 /// Whether a step crosses none of the stretches that it leads to.
 pub(crate) fn is_clear(step: &Segment, stretches: &[Segment]) -> bool {
     !stretches.iter().any(|stretch| stretch.crosses(step))

@@ -119,6 +119,10 @@ pub struct LayerReport {
     /// Why it does not rise, where a spiral was asked for.
     #[cfg_attr(feature = "serde", serde(default))]
     pub level_because: Option<LevelCause>,
+    /// How much of the outer walls is laid ahead of the others, where an order is asked for and there are others: of all pairs of a piece of an
+    /// outer wall and a piece of another the share in which the outer one comes first.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub outer_ahead: Option<f64>,
     /// The thinnest and the thickest bead, mm, apart from where it begins and ends.
     #[cfg_attr(feature = "serde", serde(default))]
     pub bead_heights: [f64; 2],

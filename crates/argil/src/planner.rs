@@ -287,6 +287,9 @@ impl<S: Slice, G: Safeguard, U: Support, R: Route, E: Smooth, T: Tauten, C: Seam
         for (report, lie) in reports.iter_mut().zip(&climbed.lies) {
             (report.climb, report.level_because, report.bead_heights) = (lie.climb, lie.cause, lie.beads);
         }
+        for (report, ahead) in reports.iter_mut().zip(&climbed.ahead) {
+            report.outer_ahead = *ahead;
+        }
         let strand = if settings.even_flow { climbed.strand } else { roomy(climbed.strand, settings.width)? };
         Ok(Plan {
             strand,

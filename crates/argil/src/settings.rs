@@ -64,6 +64,30 @@ impl Default for Skirt {
     }
 }
 
+/// Which of several walls side by side is laid first.
+///
+/// # Example
+/// ```
+/// use argil::{Planner, Settings, WallOrder, mesh::Mesh};
+/// let tube = Mesh::cuboid([0.0; 3], [30.0, 30.0, 4.0])?;
+/// let settings = Settings { walls: 2, wall_order: WallOrder::OuterLast, ..Settings::for_width(2.0) };
+/// let plan = Planner::default().plan(&tube, &settings)?;
+/// assert!(plan.layers.iter().all(|layer| layer.outer_ahead.is_some_and(|share| share < 0.1)));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum WallOrder {
+    /// None: layers begin where the step from the one below is shortest and least seen.
+    #[default]
+    Any,
+    /// The outermost, as far as a start allows that a short step leads to: its bead is laid beside nothing, where it is wanted.
+    OuterFirst,
+    /// The outermost last: its bead leans on the others.
+    OuterLast,
+}
+
 /// What of the bed the nozzle reaches, mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -113,6 +137,9 @@ pub struct Settings {
     pub layer_height: f64,
     /// How many walls lie side by side along every outline.
     pub walls: usize,
+    /// Which of them comes first.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub wall_order: WallOrder,
     /// How many of the lowest layers are filled whole.
     #[cfg_attr(feature = "serde", serde(default))]
     pub floor: usize,
@@ -191,6 +218,7 @@ impl Settings {
             width,
             layer_height: width / 3.0,
             walls: 1,
+            wall_order: WallOrder::Any,
             floor: 0,
             skin: 0,
             spiral: false,
@@ -233,6 +261,10 @@ impl Settings {
         }
         if self.walls == 0 || self.walls > 100 {
             return Err(PlanError::Setting { name: "walls", value: self.walls as f64, expected: "1 to 100" });
+        }
+        if self.spiral && self.wall_order != WallOrder::Any {
+            let expected = "left out in a spiral, whose layers begin where the one below ends";
+            return Err(PlanError::Setting { name: "wall_order", value: 1.0, expected });
         }
         if let Infill::Ratio(value) = self.infill
             && !(value > 0.0 && value <= 1.0)

@@ -8,7 +8,8 @@ use crate::Settings;
 use crate::ascent::{Ascent, ROOT_REACH, Sight};
 use crate::descent::PlannedLayer;
 use crate::ends::Exposure;
-use crate::opening::{Opened, opened};
+use crate::opening::Opened;
+use crate::precedence::{Precedence, opened_in_order};
 use crate::skirt::Ground;
 use crate::stages::Seam;
 
@@ -49,8 +50,9 @@ pub(crate) fn opened_layers(
     let nothing = vec![Vec::new(); layers.len()];
     let (mut level, starts) = stack.chain(seam, &levels, &nothing)?;
     if !checked {
-        let opened = |(layer, start): (_, &f64)| opened(layer, *start, settings.grid);
-        return Ok(layers.iter().zip(&starts).map(opened).collect());
+        let opened =
+            |(k, start): (usize, &f64)| opened_in_order(&layers[k], *start, stack.order(k), settings.grid);
+        return Ok(starts.iter().enumerate().map(opened).collect());
     }
     let (mut left_out, mut tried) = (nothing, starts.clone());
     for _ in 0..REPLANS {
@@ -118,6 +120,8 @@ struct Stack<'a> {
     cycles: Vec<ClosedCurve>,
     sights: Vec<Sight>,
     footholds: Vec<f64>,
+    /// In which order the walls are wanted; empty where all is one.
+    orders: Vec<Option<Precedence>>,
     skirt: Option<&'a Ground>,
     /// How much of the lowest layer can be seen, where the strand begins on it, and of the uppermost, where it ends.
     ends: [Option<Exposure>; 2],
@@ -139,6 +143,7 @@ impl<'a> Stack<'a> {
             ends: [sights.first().filter(|_| skirt.is_none()).map(exposure), sights.last().map(exposure)],
             sights,
             footholds: layers.iter().map(|layer| layer.foothold).collect(),
+            orders: layers.iter().zip(slices).map(|(l, slice)| Precedence::of(l, slice, settings)).collect(),
             skirt,
         }
     }
@@ -155,6 +160,10 @@ impl<'a> Stack<'a> {
         let first = first.as_ref().filter(|_| on_wall && layer == 0);
         let last = last.as_ref().filter(|_| on_wall && layer + 1 == self.layers.len());
         from_skirt + [first, last].into_iter().flatten().map(|exposure| exposure.cost(p)).sum::<f64>()
+    }
+
+    fn order(&self, layer: usize) -> Option<&Precedence> {
+        self.orders.get(layer)?.as_ref()
     }
 
     /// The first of the levels that some chain meets, and that chain; `left_out` are places, by layer, where none may start.
@@ -180,7 +189,8 @@ impl<'a> Stack<'a> {
                     Some(from_root) => VISIBLE + level.beside_root(from_root),
                     None => 0.0,
                 };
-                shown * width * width + self.end_cost(layer, p, from_root.is_some())
+                let in_order = self.order(layer).map_or(0.0, |order| order.cost(p));
+                (shown + in_order) * width * width + self.end_cost(layer, p, from_root.is_some())
             };
             match seam.starts(&self.cycles, &self.footholds, level.reach, self.settings, &cost) {
                 Ok(starts) => return Ok((k, starts)),
@@ -200,12 +210,12 @@ impl<'a> Stack<'a> {
         for (k, (layer, &start)) in self.layers.iter().zip(starts).enumerate() {
             let from = climbed.last().zip(k.checked_sub(1)).map(|((from, _), k)| (*from, &self.cycles[k]));
             let walled = self.slices.get(k).map(|slice| &slice.walled);
-            let ascent = Ascent::new(from, (layer, &self.sights[k]), walled, self.settings);
+            let ascent = Ascent::new(from, (layer, &self.sights[k], self.order(k)), walled, self.settings);
             let cleared = ascent.cleared(start, reach, anywhere);
             if cleared.is_none() {
                 stuck.push(k);
             }
-            climbed.push(cleared.unwrap_or_else(|| opened(layer, start, self.settings.grid)));
+            climbed.push(cleared.unwrap_or_else(|| ascent.opened(start)));
         }
         if stuck.is_empty() { Ok(climbed) } else { Err(stuck) }
     }

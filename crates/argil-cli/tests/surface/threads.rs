@@ -200,6 +200,7 @@ pub(crate) fn types() -> impl IntoIterator<Item = &'static str> {
         argil::Settings,
         argil::Skirt,
         argil::SkirtLaid,
+        argil::WallOrder,
         argil::StageTimes,
         argil::literal::LiteralElastic,
         argil::literal::NearestStarts,
