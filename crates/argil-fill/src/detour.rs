@@ -4,6 +4,7 @@ use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex, on_grid};
 
 use crate::bare::BareDisc;
 use crate::curve::{Bead, FillCurve};
+use crate::rings::WHOLE;
 
 /// A stretch of a curve that is replaced by two straight legs.
 #[derive(Clone, Copy, Debug)]
@@ -199,7 +200,8 @@ impl<'a> Strand<'a> {
         for leg in legs {
             // Walls that were given lie beside the region, and those of its own shut it in.
             if walls == 0 {
-                self.edges.for_each_near(leg, 0.0, |_, edge| clear &= !leg.crosses(&edge));
+                let away = WHOLE * self.width;
+                self.edges.for_each_near(leg, away, |_, edge| clear &= leg.distance_to(&edge) >= away);
             }
             // Its base lies on the curve itself.
             let inner = Segment::new(leg.point_at(0.05), tip);
