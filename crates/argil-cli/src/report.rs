@@ -247,6 +247,14 @@ fn climb(plan: &Plan) -> String {
             text.push_str(&format!("; level {shown}{more}: {why}"));
         }
     }
+    let ramps: Vec<f64> = plan.layers.iter().map(|layer| layer.ramp).filter(|&ramp| ramp > 0.0).collect();
+    if !ramps.is_empty() {
+        let mean = 100.0 * ramps.iter().sum::<f64>() / ramps.len() as f64;
+        text.push_str(&format!(
+            "; {} of the level ones begin with a ramp, for {mean:.0} % of the step",
+            ramps.len()
+        ));
+    }
     text + "\n"
 }
 

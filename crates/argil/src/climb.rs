@@ -43,10 +43,10 @@ pub(crate) fn climbed(
     }
     let level = joined((&aligned(layers, settings)?, slices), seam, settings, checked)?;
     let (strand, lies) = spiral(level.strand, settings)?;
-    if lies.iter().any(|lie| lie.climb == Climb::Rising) {
+    if lies.iter().any(|lie| lie.climb != Climb::Step) {
         return Ok(Climbed { strand, lies, ..level });
     }
-    // Where no layer rises, starts are hidden as they are in level layers.
+    // Where no layer rises at all, starts are hidden as they are in level layers.
     let level = joined((layers, slices), seam, &Settings { spiral: false, ..*settings }, checked)?;
     Ok(Climbed { lies, ..level })
 }

@@ -119,6 +119,9 @@ pub struct LayerReport {
     /// Why it does not rise, where a spiral was asked for.
     #[cfg_attr(feature = "serde", serde(default))]
     pub level_because: Option<LevelCause>,
+    /// The share of the step up to it that a ramp takes.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub ramp: f64,
     /// How much of the outer walls is laid ahead of the others, where an order is asked for and there are others: of all pairs of a piece of an
     /// outer wall and a piece of another the share in which the outer one comes first.
     #[cfg_attr(feature = "serde", serde(default))]
@@ -136,6 +139,8 @@ pub enum Climb {
     /// By a short step at its beginning; then it lies level.
     #[default]
     Step,
+    /// Along a ramp at its beginning; then it lies level.
+    Ramp,
     /// Along its whole cycle, from the end of the layer below.
     Rising,
     /// Not at all: it lies level on a layer that rose, and its bead grows thinner until it is nothing.

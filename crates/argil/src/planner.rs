@@ -286,6 +286,7 @@ impl<S: Slice, G: Safeguard, U: Support, R: Route, E: Smooth, T: Tauten, C: Seam
         let mut reports: Vec<LayerReport> = planned.iter().map(|layer| layer.report).collect();
         for (report, lie) in reports.iter_mut().zip(&climbed.lies) {
             (report.climb, report.level_because, report.bead_heights) = (lie.climb, lie.cause, lie.beads);
+            report.ramp = lie.ramp;
         }
         for (report, ahead) in reports.iter_mut().zip(&climbed.ahead) {
             report.outer_ahead = *ahead;

@@ -9,9 +9,10 @@
 //! The rule of support looks at the plane alone and holds as before; but two cycles differ in length and perhaps in the
 //! order in which they pass the same places, so that the bead between them is not everywhere one turn high. Where it is not between
 //! half and one and a half layer heights, the upper one lies level and a new run begins above. A run of few layers would be too
-//! steep; its layers lie level, with the short step between them that every layer has otherwise.
+//! steep; its layers lie level. Level layers begin with a ramp where they can, and else with the short step that every layer has otherwise.
 
 mod direction;
+mod ramp;
 mod slope;
 mod track;
 mod under;
@@ -46,6 +47,8 @@ pub(crate) struct Lie {
     pub(crate) cause: Option<LevelCause>,
     /// The thinnest and the thickest bead, mm.
     pub(crate) beads: [f64; 2],
+    /// The share of the step to the layer that a ramp takes.
+    pub(crate) ramp: f64,
 }
 
 /// The strand with its layers rising wherever they can, and how each layer lies.
@@ -59,6 +62,7 @@ pub(crate) fn spiral(strand: Strand, settings: &Settings) -> Result<(Strand, Vec
     let tracks: Vec<Track> = (0..strand.layers().len()).map(|k| track(&strand, k, settings)).collect();
     let turns = turns(&tracks, settings);
     let runs = runs(&turns);
+    let ramps = ramp::shares(&tracks, &free(&runs), seam_reach(settings), settings);
     let (start, mut layers) = (strand.start(), strand.into_layers());
     let mut rises = vec![Vec::new(); layers.len()];
     let mut lies = Vec::with_capacity(layers.len());
@@ -66,9 +70,21 @@ pub(crate) fn spiral(strand: Strand, settings: &Settings) -> Result<(Strand, Vec
     for (k, (turn, run)) in turns.iter().zip(&runs).enumerate() {
         let (track, height) = (&tracks[k], layers[k].height);
         let Some(Run { base, count }) = *run else {
-            let cause = turn.cause.unwrap_or(LevelCause::Few);
-            lies.push(Lie { climb: Climb::Step, cause: Some(cause), beads: [height; 2] });
-            below = vec![layers[k].z; track.points.len()];
+            let (cause, ramp) = (Some(turn.cause.unwrap_or(LevelCause::Few)), ramps[k]);
+            let levels = ramp::levels(track, ramp, settings.width);
+            let z: Vec<f64> = levels.iter().map(|level| layers[k].z + level * height).collect();
+            let mut lie = Lie { climb: Climb::Step, cause, beads: [height; 2], ramp };
+            if ramp > 0.0 || (k > 0 && ramps[k - 1] > 0.0) {
+                let beads =
+                    beads(track, &z, &Under::of(&tracks[k - 1], &below, settings.width), height, settings);
+                lie.beads = apart_from_seam(track, &beads, settings);
+                (layers[k].moves, rises[k]) = track.moves(&layers[k].moves, &z, &beads, height);
+            }
+            if ramp > 0.0 {
+                lie.climb = Climb::Ramp;
+            }
+            lies.push(lie);
+            below = z;
             continue;
         };
         let (low, top) = (layers[base].z, layers[base + count + 1].z);
@@ -76,10 +92,9 @@ pub(crate) fn spiral(strand: Strand, settings: &Settings) -> Result<(Strand, Vec
         let z: Vec<f64> = turn.levels.iter().map(share).map(|s| low * (1.0 - s) + top * s).collect();
         let beads = beads(track, &z, &Under::of(&tracks[k - 1], &below, settings.width), height, settings);
         let climb = if turn.cause.is_none() { Climb::Rising } else { Climb::Levelling };
-        lies.push(Lie { climb, cause: turn.cause, beads: apart_from_seam(track, &beads, settings) });
-        let moves;
-        (moves, rises[k]) = track.moves(&layers[k].moves, &z, &beads, height);
-        layers[k].moves = moves;
+        let seen = apart_from_seam(track, &beads, settings);
+        lies.push(Lie { climb, cause: turn.cause, beads: seen, ramp: 0.0 });
+        (layers[k].moves, rises[k]) = track.moves(&layers[k].moves, &z, &beads, height);
         below = z;
     }
     // Rounding in the last digit must not make the strand fall.
@@ -164,6 +179,13 @@ fn runs(turns: &[Turn]) -> Vec<Option<Run>> {
         base = k;
     }
     runs
+}
+
+/// Which layers may have a ramp: not those of a run nor the one that it begins on, not the lowest, and not the uppermost, whose rim is level.
+fn free(runs: &[Option<Run>]) -> Vec<bool> {
+    let last = runs.len().saturating_sub(1);
+    let is_base = |k: usize| runs.get(k + 1).copied().flatten().is_some_and(|run| run.base == k);
+    (0..runs.len()).map(|k| k > 0 && k < last && runs[k].is_none() && !is_base(k)).collect()
 }
 
 /// The height of the bead of each stretch, mm: from the strand below it to its own top. What nothing lies below is a thread in the

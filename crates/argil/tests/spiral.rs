@@ -7,7 +7,7 @@ use argil::curve::{DVec2, Segment, SegmentIndex};
 use argil::gcode::{GcodeSettings, read_gcode, write_gcode};
 use argil::mesh::{Ground, Mesh, Placement, Size};
 use argil::strand::{Role, Strand};
-use argil::{Climb, LevelCause, Plan, Planner, Settings};
+use argil::{Climb, LayerReport, LevelCause, Plan, Planner, Settings};
 use sample::sample;
 use verdict::audited;
 
@@ -61,6 +61,21 @@ fn longest_thin(strand: &Strand, layer: usize, settings: &Settings) -> f64 {
     longest
 }
 
+/// A layer with a ramp begins lower by its share of the step, and lies level from six beads on; its bead is nowhere much thinner or thicker than
+/// the layer.
+fn assert_ramp(strand: &Strand, layer: usize, report: &LayerReport, settings: &Settings) {
+    let (own, h) = (&strand.layers()[layer], settings.layer_height);
+    let mut way = 0.0;
+    for step in strand.steps().filter(|step| step.layer == layer) {
+        way += step.length();
+        let below = (own.z - step.to.z) / h;
+        let left = report.ramp * (1.0 - way / (6.0 * settings.width)).max(0.0);
+        assert!((below - left).abs() < 0.05, "layer {layer}: {below} of {left} of a layer at {way} mm");
+    }
+    let [thin, thick] = report.bead_heights;
+    assert!(thin > 0.5 * h && thick < 1.4 * h, "layer {layer}: beads of {thin} to {thick} mm");
+}
+
 fn assert_rises(mesh: &Mesh, settings: &Settings) -> [Plan; 2] {
     let [level, spiral] = plans(mesh, settings);
     let h = settings.layer_height;
@@ -82,12 +97,17 @@ fn assert_rises(mesh: &Mesh, settings: &Settings) -> [Plan; 2] {
     for (k, pair) in spiral.layers.windows(2).enumerate() {
         let [below, report] = pair else { continue };
         assert_eq!(report.climb == Climb::Rising, report.level_because.is_none(), "layer {}", report.index);
+        assert!((below.ramp - report.ramp).abs() <= 0.3 + 1e-9, "layer {}", report.index);
         if below.climb == Climb::Rising && report.climb == Climb::Rising {
             let longest = longest_thin(&spiral.strand, k + 1, settings);
             assert!(longest <= settings.criterion().along, "layer {}: {longest} mm are thin", report.index);
         }
-        if report.climb == Climb::Step {
+        if report.climb == Climb::Step && below.climb != Climb::Ramp {
             assert!(spiral.strand.rises(k + 1).is_empty());
+        }
+        assert_eq!(report.climb == Climb::Ramp, report.ramp > 0.0, "layer {}", report.index);
+        if report.climb == Climb::Ramp {
+            assert_ramp(&spiral.strand, k + 1, report, settings);
         }
     }
     for run in spiral.layers.split(|layer| layer.climb != Climb::Rising).filter(|run| !run.is_empty()) {
@@ -129,6 +149,13 @@ fn a_vessel_rises_from_bed_to_rim() {
 fn islands_and_their_support_rise_where_they_can() {
     assert_rises(&sample("columns"), &Settings::for_width(2.5));
     assert_rises(&scaled("arch", 0.5), &Settings::for_width(2.0));
+}
+
+#[test]
+fn what_cannot_rise_begins_with_a_ramp() {
+    let [_, spiral] = assert_rises(&sample("cup"), &Settings::for_width(2.5));
+    let ramps: Vec<f64> = spiral.layers.iter().map(|layer| layer.ramp).filter(|&ramp| ramp > 0.0).collect();
+    assert!(ramps.len() > 5 && ramps.contains(&1.0), "{ramps:?}");
 }
 
 #[test]

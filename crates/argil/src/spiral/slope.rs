@@ -10,10 +10,10 @@ use super::under::Under;
 use crate::plan::LevelCause;
 
 /// The thinnest and the thickest bead of a layer that rises on one that rises, in turns: what it rises by in a turn is one.
-const BEAD: [f64; 2] = [0.55, 1.35];
+pub(super) const BEAD: [f64; 2] = [0.55, 1.35];
 
 /// The steepest rise: one turn within so many w.
-const STEEPEST: f64 = 3.0;
+pub(super) const STEEPEST: f64 = 3.0;
 
 /// What lies farther down than this, in turns, holds nothing: 1.6 layer heights where nine layers share one more.
 const DEEPEST: f64 = 1.44;
