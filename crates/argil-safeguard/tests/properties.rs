@@ -41,6 +41,41 @@ fn wall_points(walls: &MultiPolygon<f64>) -> Vec<Point<f64>> {
         .collect()
 }
 
+#[test]
+fn a_needle_without_width_bites_nothing_out() {
+    // The corner of a square, with a needle that stands out of it by a fiftieth of a millimetre.
+    let ring = [
+        (-12.000000005683978, -11.968508171973832),
+        (-12.020000001511653, -11.965358990369447),
+        (-11.800000002703745, -12.000000002918847),
+        (-5.000000005683978, -12.000000002918847),
+        (-4.2682927009678675, -6.146341460881837),
+        (-3.0000000056839777, -9.000000002918847),
+        (-2.5740740803099467, -4.953703704414972),
+        (-11.000000005683978, 5.999999997081153),
+        (-7.000000005683978, -2.9188473860131126e-09),
+        (-5.157894751153071, -4.144736859141),
+        (-12.000000005683978, -5.000000002918847),
+    ];
+    for turn in 0..ring.len() {
+        let mut ring: Vec<Coord<f64>> = ring.iter().copied().map(Coord::from).collect();
+        ring.rotate_left(turn);
+        let other = [
+            (-1.0000000056839777, 9.999999997081153),
+            (-2.5740740803099467, -4.953703704414972),
+            (-1.0000000056839777, -7.000000002918847),
+            (1.9999999943160223, -1.0000000029188474),
+        ]
+        .map(Coord::from)
+        .to_vec();
+        let walls = MultiPolygon([ring, other].map(|ring| Polygon::new(LineString(ring), vec![])).to_vec());
+        let settings = SafeguardSettings::for_width(1.5);
+        let region = &safeguards(std::slice::from_ref(&walls), &settings)[0];
+        let p = Point::new(-11.998, -11.968_823);
+        assert!(boundary_distance(region, p) >= settings.dilation - ROUNDING, "begun at {turn}");
+    }
+}
+
 /// The kernel rounds to a thousandth of a millimetre's thousandth at these sizes.
 const ROUNDING: f64 = 1e-5;
 
