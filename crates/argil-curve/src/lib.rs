@@ -23,6 +23,7 @@ mod point_index;
 mod segment;
 mod segment_index;
 mod self_crossings;
+mod simplification;
 
 pub use capsule::SegmentPart;
 pub use closed_curve::{ClosedCurve, NearestOnCurve, OnCurve};
@@ -34,3 +35,4 @@ pub use point_index::PointIndex;
 pub use segment::{NearestOnSegment, Segment};
 pub use segment_index::{NearestSegment, SegmentIndex};
 pub use self_crossings::{Crossing, CrossingKind, self_crossings};
+pub use simplification::{rounded, simplified, without_needles};

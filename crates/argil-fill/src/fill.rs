@@ -11,7 +11,7 @@ use crate::flow::{Laid, follow_room};
 use crate::joint::Joint;
 use crate::merge::merge_within;
 use crate::offset::{dilation, rings};
-use crate::ring::{Ring, perimeter};
+use crate::ring::{Ring, perimeter, plainer};
 use crate::rings::{rings_of, sides_of};
 use crate::spiral::with_spirals;
 use crate::tree::Fence;
@@ -57,6 +57,9 @@ const FARTHEST_STEPS: f64 = 1e9;
 
 /// A ring that finds no joint is left out if it is shorter than this, in w.
 const LONGEST_BLOB: f64 = 4.0;
+
+/// What an edge may be moved by before the area that a bead can reach is measured, in w.
+const MEASURED: f64 = 0.002;
 
 /// Fills a region with beads one width apart, joined to as few closed curves as possible.
 ///
@@ -114,8 +117,9 @@ pub fn fill(
         merged = merge_within(&all, options, avoid, Some(&fence))?;
     }
     let mut curves = merged.curves;
+    let plain: Vec<_> = own.outline.iter().map(|polygon| plainer(polygon, MEASURED * w)).collect();
     let reachable =
-        if own.outline.0.is_empty() { 0.0 } else { dilation(&own.outline, 0.5 * w, w).unsigned_area() };
+        if plain.is_empty() { 0.0 } else { dilation(&MultiPolygon(plain), 0.5 * w, w).unsigned_area() };
     let limit = options.bare * w;
     // What is narrower than a residue loop's strip stays bare as the option has it.
     let mended_from = limit.max(options.residue * w);

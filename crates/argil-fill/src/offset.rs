@@ -1,9 +1,9 @@
 //! Growing and shrinking regions, on top of `geo`.
 
-use argil_curve::DVec2;
+use argil_curve::{DVec2, without_needles};
 use geo::Buffer;
 use geo::buffer::{BufferStyle, LineJoin};
-use geo_types::{LineString, MultiPolygon, Polygon};
+use geo_types::{Coord, LineString, MultiPolygon, Polygon};
 
 /// How far arcs may cut their corners, in w.
 const CHORD: f64 = 0.006;
@@ -21,7 +21,15 @@ pub(crate) fn opened_inset(
     width: f64,
 ) -> MultiPolygon<f64> {
     let inward = distance + slight;
-    let shrunk = offset(region, -inward, arc(inward, width));
+    let mut shrunk = offset(region, -inward, arc(inward, width));
+    // Needles without width would stay such, and the rings cross themselves there.
+    for polygon in &mut shrunk.0 {
+        let without = |ring: &LineString<f64>| -> LineString<f64> {
+            without_needles(&ring_points(ring)).into_iter().map(|p| Coord { x: p.x, y: p.y }).collect()
+        };
+        *polygon =
+            Polygon::new(without(polygon.exterior()), polygon.interiors().iter().map(without).collect());
+    }
     if shrunk.0.is_empty() { shrunk } else { offset(&shrunk, slight, LineJoin::Miter(60_f64.to_radians())) }
 }
 

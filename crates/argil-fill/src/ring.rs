@@ -1,6 +1,6 @@
 //! Rings: closed paths one bead apart, before they are joined.
 
-use argil_curve::{ClosedCurve, DVec2, SegmentIndex, on_grid, self_crossings};
+use argil_curve::{ClosedCurve, DVec2, SegmentIndex, rounded, self_crossings};
 use geo::Simplify;
 use geo_types::{Coord, LineString, Polygon};
 
@@ -21,7 +21,7 @@ pub struct Ring {
 const TOLERANCE: f64 = 0.006;
 
 /// A side shorter than this many grid steps has no direction left after rounding.
-const LEAST_SIDE: f64 = 12.0;
+pub(crate) const LEAST_SIDE: f64 = 12.0;
 
 /// The rings round a polygon, simplified and on the grid; those shorter than `least` mm are left out.
 pub(crate) fn rings_round(polygon: &Polygon<f64>, width: f64, grid: f64, least: f64) -> Vec<Vec<DVec2>> {
@@ -32,24 +32,8 @@ pub(crate) fn rings_round(polygon: &Polygon<f64>, width: f64, grid: f64, least: 
 pub(crate) fn ring_on_grid(points: Vec<DVec2>, width: f64, grid: f64, least: f64) -> Option<Vec<DVec2>> {
     let mut line: LineString<f64> = points.into_iter().map(|p| Coord { x: p.x, y: p.y }).collect();
     line.close();
-    let points = rounded(&ring_points(&line.simplify(TOLERANCE * width)), grid);
+    let points = rounded(&ring_points(&line.simplify(TOLERANCE * width)), grid, LEAST_SIDE * grid);
     (points.len() >= 3 && perimeter(&points) >= least).then_some(points)
-}
-
-/// The points on the grid, without sides that are too short.
-pub(crate) fn rounded(points: &[DVec2], grid: f64) -> Vec<DVec2> {
-    let least = LEAST_SIDE * grid;
-    let mut kept: Vec<DVec2> = Vec::with_capacity(points.len());
-    for &point in points {
-        let point = on_grid(point, grid);
-        if kept.last().is_none_or(|last| last.distance(point) >= least) {
-            kept.push(point);
-        }
-    }
-    while kept.len() > 1 && kept[kept.len() - 1].distance(kept[0]) < least {
-        kept.pop();
-    }
-    kept
 }
 
 /// Length of the closed path.

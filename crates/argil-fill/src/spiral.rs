@@ -1,8 +1,8 @@
 //! Chains of rings without a branch as one closed double spiral.
 
-use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex, self_crossings};
+use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex, rounded, self_crossings};
 
-use crate::ring::{Ring, rounded};
+use crate::ring::{LEAST_SIDE, Ring};
 
 /// Along so many w of every ring the strand passes from one ring to the next but one.
 const SHIFT: f64 = 4.0;
@@ -191,7 +191,7 @@ fn spiral(rings: &[&ClosedCurve], width: f64, grid: f64) -> Option<Vec<DVec2>> {
         let seam = Seam::through(rings, start, width)?;
         let mut points = seam.arm(0, width);
         points.extend(seam.arm(1, width).into_iter().rev());
-        let points = rounded(&points, grid);
+        let points = rounded(&points, grid, LEAST_SIDE * grid);
         is_sound(&points, width).then_some(points)
     })
 }

@@ -276,7 +276,8 @@ impl<'a> Tree<'a> {
             clear &= if joins.contains(&self.owner[segment]) {
                 // A tip lies on its ring, up to rounding.
                 let touches = || [leg.start, leg.end].iter().any(|&tip| side.is_within(tip, touching));
-                !(leg.crosses(&side) && (inner.crosses(&side) || !touches()))
+                // Nor does it run along its ring, where rounding makes a touch a crossing.
+                (!leg.crosses(&side) || touches()) && keeps_apart(&inner, &side, touching)
             } else {
                 keeps_apart(&inner, &side, apart)
             };

@@ -227,7 +227,7 @@ fn discs_are_covered_but_for_their_joints() {
         let allowed = (fill.joints.len() as f64 * 0.25 * WIDTH * WIDTH + 0.005 * area) / area;
         assert!(fill.figures.coverage >= 1.0 - allowed, "{radius}: {:?}", fill.figures);
         assert!(fill.figures.overdeposit <= 0.03, "{radius}: {:?}", fill.figures);
-        assert!(fill.bare.is_empty());
+        assert!(fill.bare.is_empty(), "{radius}: {:?}", fill.bare);
     }
 }
 

@@ -1,4 +1,5 @@
 use crate::SafeguardSettings;
+use argil_curve::{DVec2, without_needles};
 use geo::bool_ops::FillRule;
 use geo::buffer::{BufferStyle, LineJoin};
 use geo::{Area, BooleanOps, Buffer, CoordsIter, Simplify};
@@ -9,9 +10,6 @@ use rayon::prelude::*;
 /// Coordinates beyond this, in millimetres, are no place on a printer, and the polygon kernel
 /// cannot put them on its grid.
 const FARTHEST: f64 = 1e9;
-
-/// Sides that run back along each other at less than this angle, in radians, enclose nothing.
-const NEEDLE: f64 = 1e-5;
 
 /// Layers between two questions whether to go on.
 const BATCH: usize = 16;
@@ -136,42 +134,14 @@ fn usable(region: &MultiPolygon<f64>) -> MultiPolygon<f64> {
     let is_place = |polygon: &&Polygon<f64>| {
         polygon.coords_iter().all(|c| c.x.abs() <= FARTHEST && c.y.abs() <= FARTHEST)
     };
+    // At a needle without width the kernel bites into what lies round it.
+    let without = |ring: &LineString<f64>| -> LineString<f64> {
+        let corners = ring.0.len().saturating_sub(1);
+        let points: Vec<DVec2> = ring.0.iter().take(corners).map(|c| DVec2::new(c.x, c.y)).collect();
+        without_needles(&points).into_iter().map(|p| Coord { x: p.x, y: p.y }).collect()
+    };
     let whole = |polygon: &Polygon<f64>| {
-        Polygon::new(
-            without_needles(polygon.exterior()),
-            polygon.interiors().iter().map(without_needles).collect(),
-        )
+        Polygon::new(without(polygon.exterior()), polygon.interiors().iter().map(without).collect())
     };
     MultiPolygon(region.iter().filter(is_place).map(whole).collect())
-}
-
-/// A ring without the tips of needles that have no width: there the kernel takes a reversal for a reflex corner, and bites into what lies
-/// round it.
-fn without_needles(ring: &LineString<f64>) -> LineString<f64> {
-    let is_tip = |[a, b, c]: [Coord<f64>; 3]| {
-        let (to, from) = (b - a, c - b);
-        let dot = to.x * from.x + to.y * from.y;
-        dot < 0.0 && (to.x * from.y - to.y * from.x).abs() <= NEEDLE * -dot
-    };
-    let mut kept: Vec<Coord<f64>> = Vec::with_capacity(ring.0.len());
-    for &corner in ring.0.iter().take(ring.0.len().saturating_sub(1)) {
-        kept.push(corner);
-        while let [.., a, b, c] = kept[..]
-            && is_tip([a, b, c])
-        {
-            kept.truncate(kept.len() - 2);
-            kept.push(c);
-        }
-    }
-    // Those at the seam of the ring.
-    while let [first, second, .., before, last] = kept[..] {
-        if is_tip([before, last, first]) {
-            kept.pop();
-        } else if is_tip([last, first, second]) {
-            kept.remove(0);
-        } else {
-            break;
-        }
-    }
-    LineString(kept)
 }

@@ -24,16 +24,18 @@ pub(crate) fn grown(region: &MultiPolygon<f64>, distance: f64, width: f64) -> Mu
     plainer(&region.buffer_with_style(BufferStyle::new(distance).line_join(LineJoin::Round(step))), width)
 }
 
+/// The vertices of a ring without the repeated first.
+pub(crate) fn ring_points(ring: &LineString<f64>) -> Vec<DVec2> {
+    ring.0.iter().skip(1).map(|c| DVec2::new(c.x, c.y)).collect()
+}
+
 /// The region without vertices that change nothing: the kernel's time grows with those that lie within an offset of each other.
 pub(crate) fn plainer(region: &MultiPolygon<f64>, width: f64) -> MultiPolygon<f64> {
     let plain = |ring: &LineString<f64>| {
         let simple = ring.simplify(PLAINER * width);
         // The kernel may lose a ring that crosses itself.
-        let crosses = || {
-            let points: Vec<DVec2> = simple.points().skip(1).map(|p| DVec2::new(p.x(), p.y())).collect();
-            !self_crossings(&points).is_empty()
-        };
-        if simple.0.len() < 4 || crosses() { ring.clone() } else { simple }
+        let is_usable = simple.0.len() >= 4 && self_crossings(&ring_points(&simple)).is_empty();
+        if is_usable { simple } else { ring.clone() }
     };
     let polygon =
         |p: &Polygon<f64>| Polygon::new(plain(p.exterior()), p.interiors().iter().map(plain).collect());

@@ -1,13 +1,13 @@
 //! Sparse fill: stripes whose edges are lanes, in the same places on every layer.
 
-use argil_curve::{DVec2, Segment, SegmentIndex, on_grid};
+use argil_curve::{DVec2, Segment, SegmentIndex, rounded};
 use argil_fill::FillError;
 use geo::{BooleanOps, BoundingRect};
-use geo_types::{Coord, LineString, MultiPolygon, Rect};
+use geo_types::{Coord, MultiPolygon, Rect};
 
 use crate::apart::is_apart;
 use crate::model_loop::nest;
-use crate::offset::{cleaned, grown, opened};
+use crate::offset::{cleaned, grown, opened, ring_points};
 use crate::section::{Filled, Section};
 use crate::{ModelLoop, SkinOptions};
 
@@ -143,7 +143,7 @@ impl Section<'_> {
         let grid = options.fill.grid;
         let mut length = 0.0;
         for ring in parts.iter().flat_map(|p| std::iter::once(p.exterior()).chain(p.interiors())) {
-            let points = rounded(ring, grid);
+            let points = rounded(&ring_points(ring), grid, LEAST_SIDE * grid);
             let own: f64 = sides(&points).map(|side| side.length()).sum();
             let is_clear = || points.iter().all(|&p| !taken.is_within(p, CLEAR * width));
             let crosses = || {
@@ -170,19 +170,4 @@ impl Section<'_> {
 
 fn sides(points: &[DVec2]) -> impl Iterator<Item = Segment> + '_ {
     (0..points.len()).map(|k| Segment::new(points[k], points[(k + 1) % points.len()]))
-}
-
-/// The vertices of a ring on the grid, without sides that are too short.
-fn rounded(ring: &LineString<f64>, grid: f64) -> Vec<DVec2> {
-    let mut points: Vec<DVec2> = Vec::with_capacity(ring.0.len());
-    for c in ring.0.iter().skip(1) {
-        let point = on_grid(DVec2::new(c.x, c.y), grid);
-        if points.last().is_none_or(|last| last.distance(point) >= LEAST_SIDE * grid) {
-            points.push(point);
-        }
-    }
-    while points.len() > 1 && points[points.len() - 1].distance(points[0]) < LEAST_SIDE * grid {
-        points.pop();
-    }
-    points
 }

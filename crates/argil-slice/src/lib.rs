@@ -31,7 +31,6 @@ mod rings;
 mod section;
 mod settings;
 mod sheet;
-mod simplification;
 mod slender;
 mod slicing;
 mod soundness;

@@ -1,8 +1,7 @@
 //! Whether loops are simple and apart, decided on the rounded coordinates that are printed.
 
-use crate::simplification::distance_to_side;
+use argil_curve::Segment;
 use glam::DVec2;
-use robust::{Coord, orient2d};
 
 /// Loops must be farther than this many grid steps from each other: paths are led between them and
 /// are rounded to the same grid.
@@ -15,8 +14,7 @@ struct Side {
     ring: u32,
     /// Number of the side in its ring: it runs from vertex `number` to the next.
     number: u32,
-    from: DVec2,
-    to: DVec2,
+    at: Segment,
 }
 
 /// For each loop, whether it crosses or nearly touches itself or another, or has no area.
@@ -34,8 +32,7 @@ pub(crate) fn unsound(rings: &[Vec<DVec2>], grid: f64) -> Vec<bool> {
             (0..points.len()).map(move |number| Side {
                 ring: ring as u32,
                 number: number as u32,
-                from: points[number],
-                to: points[(number + 1) % points.len()],
+                at: Segment::new(points[number], points[(number + 1) % points.len()]),
             })
         })
         .collect();
@@ -46,7 +43,7 @@ pub(crate) fn unsound(rings: &[Vec<DVec2>], grid: f64) -> Vec<bool> {
             let count = rings[a.ring as usize].len() as u32;
             too_near_within(a, b, count, WITHIN * grid)
         } else {
-            distance_between(a, b) <= apart
+            a.at.distance_to(&b.at) <= apart
         };
         if is_fault {
             faulty[a.ring as usize] = true;
@@ -62,34 +59,15 @@ fn too_near_within(a: &Side, b: &Side, count: u32, limit: f64) -> bool {
     let (before, after) = match (follows(a, b), follows(b, a)) {
         (true, _) => (a, b),
         (_, true) => (b, a),
-        _ => return distance_between(a, b) < limit,
+        _ => return a.at.distance_to(&b.at) < limit,
     };
-    distance_to_side(before.from, after.from, after.to) < limit
-        || distance_to_side(after.to, before.from, before.to) < limit
-}
-
-/// Zero when the sides cross.
-fn distance_between(a: &Side, b: &Side) -> f64 {
-    if cross(a, b) {
-        return 0.0;
-    }
-    distance_to_side(a.from, b.from, b.to)
-        .min(distance_to_side(a.to, b.from, b.to))
-        .min(distance_to_side(b.from, a.from, a.to))
-        .min(distance_to_side(b.to, a.from, a.to))
-}
-
-fn cross(a: &Side, b: &Side) -> bool {
-    let coord = |p: DVec2| Coord { x: p.x, y: p.y };
-    let turn = |side: &Side, point: DVec2| orient2d(coord(side.from), coord(side.to), coord(point));
-    let opposite = |p: f64, q: f64| (p > 0.0 && q < 0.0) || (p < 0.0 && q > 0.0);
-    opposite(turn(a, b.from), turn(a, b.to)) && opposite(turn(b, a.from), turn(b, a.to))
+    after.at.distance(before.at.start) < limit || before.at.distance(after.at.end) < limit
 }
 
 /// Calls `visit` with every pair of sides whose boxes come within `reach` of each other, each pair once.
 fn for_each_near(sides: &[Side], reach: f64, mut visit: impl FnMut(usize, usize)) {
-    let low = |k: usize| sides[k].from.min(sides[k].to) - reach;
-    let high = |k: usize| sides[k].from.max(sides[k].to);
+    let low = |k: usize| sides[k].at.start.min(sides[k].at.end) - reach;
+    let high = |k: usize| sides[k].at.start.max(sides[k].at.end);
     // Sweep along x with the sides that the sweep line meets kept in a list; loops of a layer
     // have few sides over any one x.
     let mut order: Vec<usize> = (0..sides.len()).collect();
