@@ -48,21 +48,24 @@ pub(crate) fn with_spines(
     if !ties.is_empty() {
         joined = joined.union(&swept(&ties, HALF_LANE * width));
     }
-    for polygon in &mut joined {
-        let outer = SegmentIndex::new(sides(&ring_points(polygon.exterior())).collect(), width);
-        let near = 3.0 * HALF_LANE * width;
-        let stays = |hole: &LineString<f64>| {
-            let area = Polygon::new(hole.clone(), Vec::new()).unsigned_area();
-            let points = ring_points(hole);
-            let is_beside = || points.iter().all(|&p| outer.is_within(p, near));
-            let is_pocket = || !outline.iter().any(|ring| contains(&points, ring[0]));
-            let is_small = perimeter(&points) < LEAST_POCKET * width;
-            area >= LEAST_HOLE * width * width && !is_beside() && !(is_small && is_pocket())
-        };
-        let holes = polygon.interiors().iter().filter(|hole| stays(hole)).cloned().collect();
-        *polygon = Polygon::new(polygon.exterior().clone(), holes);
-    }
-    joined
+    joined.into_iter().map(|polygon| without_gaps(polygon, outline, width)).collect()
+}
+
+/// The region without holes that are gaps between a spine and its wall, or pockets of solid that both shut off.
+pub(crate) fn without_gaps(polygon: Polygon<f64>, outline: &[Vec<DVec2>], width: f64) -> Polygon<f64> {
+    let outer = SegmentIndex::new(sides(&ring_points(polygon.exterior())).collect(), width);
+    let near = 3.0 * HALF_LANE * width;
+    let stays = |hole: &LineString<f64>| {
+        let area = Polygon::new(hole.clone(), Vec::new()).unsigned_area();
+        let points = ring_points(hole);
+        let is_beside = || points.iter().all(|&p| outer.is_within(p, near));
+        let is_pocket = || !outline.iter().any(|ring| contains(&points, ring[0]));
+        let is_small = perimeter(&points) < LEAST_POCKET * width;
+        area >= LEAST_HOLE * width * width && !is_beside() && !(is_small && is_pocket())
+    };
+    let (exterior, mut holes) = polygon.into_inner();
+    holes.retain(stays);
+    Polygon::new(exterior, holes)
 }
 
 /// A short line from a spine into a speck beside it.

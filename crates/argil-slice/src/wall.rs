@@ -8,7 +8,7 @@ use crate::region::{self, perimeter, polygon_through, ring_points, signed_area};
 use crate::slender::{SLACK, is_strip_lost, strips};
 use crate::soundness::unsound;
 use crate::spine::{self, is_bare_somewhere};
-use crate::thin::{HALF_LANE, has_spine, with_spines};
+use crate::thin::{HALF_LANE, has_spine, with_spines, without_gaps};
 use argil_curve::{SegmentIndex, rounded, self_crossings, simplified};
 use geo::{Area, BooleanOps, Contains, Intersects};
 use geo_types::{LineString, MultiPolygon, Polygon};
@@ -351,9 +351,12 @@ impl<'a> Piece<'a> {
     fn cleaned(&self, cleaning: Cleaning, settings: &SliceSettings) -> Vec<Piece<'a>> {
         let (width, chord) = (settings.width, CHORD * settings.width);
         let opening = cleaning.opening * width;
-        let cleaned = if self.source.thin && cleaning.opening <= HALF_LANE {
+        let cleaned: MultiPolygon<f64> = if self.source.thin && cleaning.opening <= HALF_LANE {
             let closing = CLOSING * width;
-            region::inset(&region::dilation(&self.region, closing, chord), closing, chord)
+            let closed = region::inset(&region::dilation(&self.region, closing, chord), closing, chord);
+            // A bay that is closed at its mouth is a pocket.
+            let outline: Vec<Vec<DVec2>> = region::rings(self.source.polygon).map(ring_points).collect();
+            closed.into_iter().map(|polygon| without_gaps(polygon, &outline, width)).collect()
         } else {
             region::mitred_dilation(&region::inset(&self.region, opening, chord), opening)
         };
@@ -369,4 +372,34 @@ fn faulty_pieces(pieces: &[Piece<'_>], grid: f64) -> Vec<bool> {
         .iter()
         .map(|piece| faulty.by_ref().take(piece.rings.len()).fold(false, |any, is| any | is))
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use geo_types::Coord;
+
+    #[test]
+    fn a_bay_that_is_closed_at_its_mouth_is_no_loop() {
+        let ring = |points: &[(f64, f64)]| LineString(points.iter().copied().map(Coord::from).collect());
+        let outline = Polygon::new(ring(&[(-2.0, -2.0), (9.0, -2.0), (9.0, 9.0), (-2.0, 9.0)]), Vec::new());
+        // A square with a bay in its side, 0.6 mm across, behind a mouth of a twentieth of a millimetre.
+        let bay = [
+            (3.0, 0.0),
+            (3.0, 0.1),
+            (2.7, 0.1),
+            (2.7, 0.7),
+            (3.3, 0.7),
+            (3.3, 0.1),
+            (3.05, 0.1),
+            (3.05, 0.0),
+        ];
+        let square = [(6.0, 0.0), (6.0, 6.0), (0.0, 6.0)];
+        let region = Polygon::new(ring(&[&[(0.0, 0.0)], &bay[..], &square[..]].concat()), Vec::new());
+        let source = Source { polygon: &outline, distance: 0.75, wall: 0, thin: true };
+        let settings = SliceSettings::default();
+        let piece = source.piece(region, ATTEMPTS[0], &settings).expect("it has rings");
+        let cleaned = piece.cleaned(ATTEMPTS[1], &settings);
+        assert_eq!(cleaned.iter().map(|piece| piece.rings.len()).collect::<Vec<_>>(), [1]);
+    }
 }
