@@ -120,7 +120,7 @@ struct Stack<'a> {
     cycles: Vec<ClosedCurve>,
     sights: Vec<Sight>,
     footholds: Vec<f64>,
-    /// In which order the walls are wanted; empty where all is one.
+    /// In which order the walls of each layer are wanted.
     orders: Vec<Option<Precedence>>,
     skirt: Option<&'a Ground>,
     /// How much of the lowest layer can be seen, where the strand begins on it, and of the uppermost, where it ends.

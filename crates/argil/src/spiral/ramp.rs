@@ -37,7 +37,8 @@ pub(super) fn shares(tracks: &[Track], free: &[bool], seam: f64, settings: &Sett
     let is_long = |track: &Track| track.length() >= FEWEST * RAMP * width;
     let mut most: Vec<f64> =
         tracks.iter().zip(free).map(|(track, &free)| f64::from(u8::from(free && is_long(track)))).collect();
-    for round in 0.. {
+    let mut round = 0;
+    loop {
         let shares = faded(&most);
         let mut sound = true;
         for k in 1..tracks.len() {
@@ -53,8 +54,8 @@ pub(super) fn shares(tracks: &[Track], free: &[bool], seam: f64, settings: &Sett
         if sound {
             return shares;
         }
+        round += 1;
     }
-    Vec::new()
 }
 
 /// The largest shares that are nowhere above `most`, and differ by little.
