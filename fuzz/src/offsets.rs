@@ -57,7 +57,8 @@ fn shape(draw: &mut Draw<'_>) -> MultiPolygon<f64> {
         let (inner, turn) = (draw.within(0.2, 1.0), draw.within(0.0, 6.3));
         let corner = |k: usize| {
             let angle = turn + k as f64 * std::f64::consts::TAU / corners as f64;
-            let p = centre + radius * if k % 2 == 0 { 1.0 } else { inner } * DVec2::from_angle(angle);
+            let p =
+                centre + radius * if k.is_multiple_of(2) { 1.0 } else { inner } * DVec2::from_angle(angle);
             Coord { x: p.x, y: p.y }
         };
         (0..corners).map(corner).collect()
