@@ -6,6 +6,9 @@ use glam::DVec2;
 /// Sides that run back along each other at less than this angle, in radians, enclose nothing.
 const NEEDLE: f64 = 1e-5;
 
+/// Vertices no farther apart than this have no direction between them, mm: rounding of polygon kernels.
+const SAME_PLACE: f64 = 1e-6;
+
 /// A closed curve through some of the vertices, from which no vertex is farther than `tolerance` mm
 /// (Douglas and Peucker, <https://doi.org/10.3138/FM57-6770-U75U-7727>).
 ///
@@ -50,7 +53,8 @@ pub fn rounded(ring: &[DVec2], grid: f64, least_side: f64) -> Vec<DVec2> {
     kept
 }
 
-/// The ring without the tips of needles that have no width: vertices at which it turns back along itself by an angle of less than 1e-5.
+/// The ring without the tips of needles that have no width: vertices at which it turns back along itself by an angle of less than 1e-5. Of vertices
+/// that are no farther than 1e-6 mm from each other one is kept.
 ///
 /// Polygon kernels leave such needles, and take the reversal for a reflex corner where rounding has it so.
 ///
@@ -72,17 +76,22 @@ pub fn without_needles(ring: &[DVec2]) -> Vec<DVec2> {
     };
     let mut kept: Vec<DVec2> = Vec::with_capacity(ring.len());
     for &vertex in ring {
+        if kept.last().is_some_and(|last| last.distance(vertex) <= SAME_PLACE) {
+            continue;
+        }
         kept.push(vertex);
         while let [.., a, b, c] = kept[..]
             && is_tip([a, b, c])
         {
             kept.truncate(kept.len() - 2);
-            kept.push(c);
+            if a.distance(c) > SAME_PLACE {
+                kept.push(c);
+            }
         }
     }
     // Those where the ring begins.
     while let [first, second, .., before, last] = kept[..] {
-        if is_tip([before, last, first]) {
+        if last.distance(first) <= SAME_PLACE || is_tip([before, last, first]) {
             kept.pop();
         } else if is_tip([last, first, second]) {
             kept.remove(0);
@@ -167,5 +176,26 @@ mod tests {
         assert!(rounded(&[], 1e-4, 1.0).is_empty());
         let there_and_back = [DVec2::ZERO, DVec2::X, DVec2::X * 2.0, DVec2::X];
         assert!(without_needles(&there_and_back).len() <= 3, "nothing is left but a line");
+    }
+
+    #[test]
+    fn a_needle_may_be_cut_in_pieces() {
+        // On its way out and back it has vertices that rounding has put beside each other.
+        let square = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)].map(DVec2::from);
+        let needle = [
+            (0.0, 2.0),
+            (-3.0, 2.0),
+            (-3.0 - 3e-8, 2.0 + 2e-8),
+            (-9.0, 2.0),
+            (-3.0, 2.0 - 3e-8),
+            (-1e-8, 2.0),
+        ];
+        for turn in 0..10 {
+            let mut ring: Vec<DVec2> = square.into_iter().chain(needle.map(DVec2::from)).collect();
+            ring.rotate_left(turn);
+            let whole = without_needles(&ring);
+            assert!(whole.iter().all(|p| p.x > -1e-6), "begun at {turn}: {whole:?}");
+            assert!(square.iter().all(|corner| whole.contains(corner)), "begun at {turn}: {whole:?}");
+        }
     }
 }
