@@ -21,15 +21,17 @@ pub(crate) fn opened_inset(
     width: f64,
 ) -> MultiPolygon<f64> {
     let inward = distance + slight;
-    let mut shrunk = offset(region, -inward, arc(inward, width));
+    let shrunk = offset(region, -inward, arc(inward, width));
     // Needles without width would stay such, and the rings cross themselves there.
-    for polygon in &mut shrunk.0 {
-        let without = |ring: &LineString<f64>| -> LineString<f64> {
-            without_needles(&ring_points(ring)).into_iter().map(|p| Coord { x: p.x, y: p.y }).collect()
-        };
-        *polygon =
-            Polygon::new(without(polygon.exterior()), polygon.interiors().iter().map(without).collect());
-    }
+    let without = |ring: &LineString<f64>| -> Option<LineString<f64>> {
+        let kept = without_needles(&ring_points(ring));
+        (kept.len() >= 3).then(|| kept.into_iter().map(|p| Coord { x: p.x, y: p.y }).collect())
+    };
+    let whole = |polygon: &Polygon<f64>| {
+        let exterior = without(polygon.exterior())?;
+        Some(Polygon::new(exterior, polygon.interiors().iter().filter_map(without).collect()))
+    };
+    let shrunk = MultiPolygon(shrunk.iter().filter_map(whole).collect());
     if shrunk.0.is_empty() { shrunk } else { offset(&shrunk, slight, LineJoin::Miter(60_f64.to_radians())) }
 }
 

@@ -135,13 +135,15 @@ fn usable(region: &MultiPolygon<f64>) -> MultiPolygon<f64> {
         polygon.coords_iter().all(|c| c.x.abs() <= FARTHEST && c.y.abs() <= FARTHEST)
     };
     // At a needle without width the kernel bites into what lies round it.
-    let without = |ring: &LineString<f64>| -> LineString<f64> {
+    let without = |ring: &LineString<f64>| -> Option<LineString<f64>> {
         let corners = ring.0.len().saturating_sub(1);
         let points: Vec<DVec2> = ring.0.iter().take(corners).map(|c| DVec2::new(c.x, c.y)).collect();
-        without_needles(&points).into_iter().map(|p| Coord { x: p.x, y: p.y }).collect()
+        let kept = without_needles(&points);
+        (kept.len() >= 3).then(|| kept.into_iter().map(|p| Coord { x: p.x, y: p.y }).collect())
     };
     let whole = |polygon: &Polygon<f64>| {
-        Polygon::new(without(polygon.exterior()), polygon.interiors().iter().map(without).collect())
+        let exterior = without(polygon.exterior())?;
+        Some(Polygon::new(exterior, polygon.interiors().iter().filter_map(without).collect()))
     };
-    MultiPolygon(region.iter().filter(is_place).map(whole).collect())
+    MultiPolygon(region.iter().filter(is_place).filter_map(whole).collect())
 }

@@ -76,6 +76,23 @@ fn a_needle_without_width_bites_nothing_out() {
     }
 }
 
+#[test]
+fn what_is_nothing_but_a_needle_is_no_wall() {
+    let needle = [(0.0, 0.0), (4.0, 1.0), (8.0, 2.0), (4.0, 1.0)].map(Coord::from).to_vec();
+    let square = [(20.0, 0.0), (24.0, 0.0), (24.0, 4.0), (20.0, 4.0)].map(Coord::from).to_vec();
+    let hole = [(21.0, 1.0), (23.0, 1.0), (22.0, 1.0)].map(Coord::from).to_vec();
+    let walls = MultiPolygon(vec![
+        Polygon::new(LineString(needle), vec![]),
+        Polygon::new(LineString(square), vec![LineString(hole)]),
+    ]);
+    let region = &safeguards(std::slice::from_ref(&walls), &SafeguardSettings::for_width(1.5))[0];
+    assert!(
+        region.0.len() == 1
+            && region.contains(&Point::new(22.0, 2.0))
+            && !region.contains(&Point::new(4.0, 1.0))
+    );
+}
+
 /// The kernel rounds to a thousandth of a millimetre's thousandth at these sizes.
 const ROUNDING: f64 = 1e-5;
 
