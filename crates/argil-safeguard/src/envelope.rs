@@ -1,8 +1,8 @@
 use crate::SafeguardSettings;
-use argil_curve::{DVec2, without_needles};
+use argil_curve::{DVec2, self_crossings, without_needles};
 use geo::bool_ops::FillRule;
 use geo::buffer::{BufferStyle, LineJoin};
-use geo::{Area, BooleanOps, Buffer, CoordsIter, Simplify};
+use geo::{BooleanOps, Buffer, CoordsIter, Simplify};
 use geo_types::{Coord, LineString, MultiPolygon, Polygon};
 #[cfg(feature = "rayon")]
 use rayon::prelude::*;
@@ -101,13 +101,15 @@ fn all_dilated(layers: &[MultiPolygon<f64>], distance: f64, tolerance: f64) -> V
 /// Three things make it smaller than it should be: the simplification of the walls, the chords of
 /// the round joins, and the simplification of the result. They share what it is grown by on top.
 fn dilated(walls: &MultiPolygon<f64>, distance: f64, tolerance: f64) -> MultiPolygon<f64> {
-    let grown = |region: &MultiPolygon<f64>| offset(region, distance + tolerance, 0.2 * tolerance);
-    let mut region = grown(&simplified(walls, 0.4 * tolerance));
-    // The kernel may lose a ring that crosses itself, as one of the simplified may.
-    if region.unsigned_area() < walls.unsigned_area() {
-        region = grown(walls);
-    }
-    simplified(&region, 0.4 * tolerance)
+    // The kernel may lose a ring that crosses itself, or bite into what lies round it, as it may be once it is simplified.
+    let plain = |polygon: &Polygon<f64>| {
+        let simple = polygon.simplify(0.4 * tolerance);
+        let crosses = |ring: &LineString<f64>| !self_crossings(&corners(ring)).is_empty();
+        let is_usable = !std::iter::once(simple.exterior()).chain(simple.interiors()).any(crosses);
+        if is_usable { simple } else { polygon.clone() }
+    };
+    let walls = if tolerance > 0.0 { walls.iter().map(plain).collect() } else { walls.clone() };
+    simplified(&offset(&walls, distance + tolerance, 0.2 * tolerance), 0.4 * tolerance)
 }
 
 /// Grows a region (or shrinks it, by a negative distance) with round joins whose chords cut off at most `chord_error`.
@@ -130,15 +132,18 @@ fn united(a: &MultiPolygon<f64>, b: &MultiPolygon<f64>) -> MultiPolygon<f64> {
     a.union_with_fill_rule(b, FillRule::NonZero)
 }
 
+/// The vertices of a ring without the repeated first.
+fn corners(ring: &LineString<f64>) -> Vec<DVec2> {
+    ring.0.iter().take(ring.0.len().saturating_sub(1)).map(|c| DVec2::new(c.x, c.y)).collect()
+}
+
 fn usable(region: &MultiPolygon<f64>) -> MultiPolygon<f64> {
     let is_place = |polygon: &&Polygon<f64>| {
         polygon.coords_iter().all(|c| c.x.abs() <= FARTHEST && c.y.abs() <= FARTHEST)
     };
     // At a needle without width the kernel bites into what lies round it.
     let without = |ring: &LineString<f64>| -> Option<LineString<f64>> {
-        let corners = ring.0.len().saturating_sub(1);
-        let points: Vec<DVec2> = ring.0.iter().take(corners).map(|c| DVec2::new(c.x, c.y)).collect();
-        let kept = without_needles(&points);
+        let kept = without_needles(&corners(ring));
         (kept.len() >= 3).then(|| kept.into_iter().map(|p| Coord { x: p.x, y: p.y }).collect())
     };
     let whole = |polygon: &Polygon<f64>| {
