@@ -67,15 +67,17 @@ fn shape(draw: &mut Draw<'_>) -> MultiPolygon<f64> {
     MultiPolygon(vec![Polygon::new(LineString(ring), Vec::new())]).union(&MultiPolygon(Vec::new()))
 }
 
-/// The region without slits and needles that have no width: there is nothing between their sides.
+/// The region without slits and needles that have no width, and without what is nothing else: there is nothing between their sides.
 fn without_slits(region: &MultiPolygon<f64>) -> MultiPolygon<f64> {
-    let whole = |ring: &LineString<f64>| -> LineString<f64> {
+    let whole = |ring: &LineString<f64>| -> Option<LineString<f64>> {
         let points: Vec<DVec2> = ring.0.iter().skip(1).map(|c| DVec2::new(c.x, c.y)).collect();
-        without_needles(&points).into_iter().map(|p| Coord { x: p.x, y: p.y }).collect()
+        let kept = without_needles(&points);
+        (kept.len() >= 3).then(|| kept.into_iter().map(|p| Coord { x: p.x, y: p.y }).collect())
     };
-    let polygon =
-        |p: &Polygon<f64>| Polygon::new(whole(p.exterior()), p.interiors().iter().map(whole).collect());
-    MultiPolygon(region.iter().map(polygon).collect())
+    let polygon = |p: &Polygon<f64>| {
+        Some(Polygon::new(whole(p.exterior())?, p.interiors().iter().filter_map(whole).collect()))
+    };
+    MultiPolygon(region.iter().filter_map(polygon).collect())
 }
 
 fn rings(region: &MultiPolygon<f64>) -> impl Iterator<Item = &LineString<f64>> {
@@ -123,7 +125,12 @@ fn keeps_its_distance(region: &MultiPolygon<f64>) {
     let settings = SafeguardSettings::for_width(WIDTH);
     let envelope = safeguards(&[region.clone(), MultiPolygon(Vec::new())], &settings);
     for line in rings(region).flat_map(LineString::lines) {
-        let inward = Coord { x: -line.dy(), y: line.dx() } * (THINNEST / line.dx().hypot(line.dy()));
+        let length = line.dx().hypot(line.dy());
+        // The end of what has no width.
+        if length < THINNEST {
+            continue;
+        }
+        let inward = Coord { x: -line.dy(), y: line.dx() } * (THINNEST / length);
         for p in [0.1, 0.5, 0.9].map(|share| line.start + line.delta() * share) {
             // A needle without any width is no wall.
             if !region.contains(&Point::from(p + inward)) {

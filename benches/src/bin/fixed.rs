@@ -46,7 +46,7 @@ fn distances() -> Result<(), Box<dyn Error>> {
 fn tour() -> Result<(), Box<dyn Error>> {
     let lengths = MixedLayer::new(100, 1).distances()?;
     let metric = MatrixMetric::new(100, &lengths)?;
-    let options = TourOptions { kicks_per_node: 4.0, ..TourOptions::default() };
+    let options = TourOptions { kicks_per_node: 4.0, patience_per_node: 4.0, ..TourOptions::default() };
     let cold = shortest_tour(&metric, &[], None, &options);
     black_box(shortest_tour(&metric, &[], Some(&cold.order), &options));
     Ok(())

@@ -22,7 +22,7 @@ use std::time::Instant;
 use std::{env, fs, io};
 
 use argil_benches::{Instance, by_heap, by_petgraph, petgraph_of};
-use argil_graph::{Distances, PathGraph};
+use argil_graph::{DistanceMatrix, Distances, PathGraph};
 use argil_tour::{Metric, Tour, TourOptions, TourSolver};
 use serde_json::{Map, Value, json};
 
@@ -101,11 +101,34 @@ impl Arguments {
 
     fn options(&self) -> TourOptions {
         let plain = TourOptions { neighbours: 0, seed: self.seed, ..TourOptions::default() };
-        TourOptions { kicks_per_node: self.kicks.unwrap_or(plain.kicks_per_node), ..plain }
+        with_all_kicks(self.kicks.unwrap_or(plain.kicks_per_node), &plain)
     }
 }
 
-/// The distances as the search asks for them.
+/// The options with so many kicks a node, all of which are spent.
+fn with_all_kicks(kicks_per_node: f64, options: &TourOptions) -> TourOptions {
+    TourOptions { kicks_per_node, patience_per_node: kicks_per_node, ..*options }
+}
+
+/// A matrix of distances as the search asks for it.
+struct Rows<'a>(&'a DistanceMatrix);
+
+impl Metric for Rows<'_> {
+    fn nodes(&self) -> usize {
+        self.0.len()
+    }
+
+    #[inline]
+    fn distance(&self, a: usize, b: usize) -> f64 {
+        self.0.row(a)[b]
+    }
+
+    fn row(&self, a: usize) -> Option<&[f64]> {
+        Some(self.0.row(a))
+    }
+}
+
+/// Distances of any kind as the search asks for them.
 struct Lengths<'a>(&'a Distances<'a>);
 
 impl Metric for Lengths<'_> {
@@ -116,13 +139,6 @@ impl Metric for Lengths<'_> {
     #[inline]
     fn distance(&self, a: usize, b: usize) -> f64 {
         self.0.get(a, b)
-    }
-
-    fn row(&self, a: usize) -> Option<&[f64]> {
-        match self.0 {
-            Distances::Matrix(matrix) => Some(matrix.row(a)),
-            _ => None,
-        }
     }
 }
 
@@ -140,8 +156,12 @@ fn timed<T>(rounds: usize, mut work: impl FnMut() -> T) -> (f64, Option<T>) {
 
 /// Candidates and tour with no thought of time.
 fn tour_of(graph: &PathGraph, among: &[u32], start: Option<&[usize]>, options: &TourOptions) -> Tour {
-    let distances = graph.distances_within(among, PathGraph::MOST_MATRIX_BYTES);
-    TourSolver::new().solve(&Lengths(&distances), &graph.nearby(among, NEAREST), start, options)
+    let candidates = graph.nearby(among, NEAREST);
+    let mut solver = TourSolver::new();
+    match graph.distances_within(among, PathGraph::MOST_MATRIX_BYTES) {
+        Distances::Matrix(matrix) => solver.solve(&Rows(&matrix), &candidates, start, options),
+        distances => solver.solve(&Lengths(&distances), &candidates, start, options),
+    }
 }
 
 /// The kicks a node with which `work` takes about `budget_ms`.
@@ -210,7 +230,7 @@ fn run() -> Result<(), Box<dyn Error>> {
         Some(path) => {
             let above = read(path)?;
             let options =
-                TourOptions { neighbours: 0, kicks_per_node: KICKS_ABOVE, ..TourOptions::default() };
+                with_all_kicks(KICKS_ABOVE, &TourOptions { neighbours: 0, ..TourOptions::default() });
             let tour = tour_of(&above.graph()?, &above.terminals, None, &options);
             Some((above, tour))
         }
@@ -219,47 +239,73 @@ fn run() -> Result<(), Box<dyn Error>> {
     let (start_ms, start) =
         timed(rounds, || warm.as_ref().map(|(above, tour)| layer.order_of(above, &tour.order)));
     let start = start.flatten();
-    let in_matrix = among.len() <= MOST_SCANNED && matches!(distances, Distances::Matrix(_));
-    let (candidates_ms, candidates) =
-        timed(rounds, || graph.nearby(among, if in_matrix { 0 } else { NEAREST }));
-    let candidates = candidates.unwrap_or_default();
-    let metric = Lengths(&distances);
-    let mut solver = TourSolver::new();
-    let neighbours = if in_matrix { NEAREST } else { 0 };
-    let mut options = TourOptions { neighbours, ..arguments.options() };
-    if let Some(budget) = arguments.budget_ms {
-        options.kicks_per_node = within(budget - candidates_ms - start_ms, |kicks_per_node| {
-            let options = TourOptions { kicks_per_node, ..options };
-            timed(rounds, || solver.solve(&metric, &candidates, start.as_deref(), &options)).0
-        });
-    }
-    let (tour_ms, tour) = timed(rounds, || solver.solve(&metric, &candidates, start.as_deref(), &options));
-    let length = tour.ok_or("no round was run")?.length;
     if start.is_some() {
         found.insert("start_ms".into(), json!(start_ms));
     }
+    let in_matrix = among.len() <= MOST_SCANNED && matches!(distances, Distances::Matrix(_));
+    let (candidates_ms, candidates) =
+        timed(rounds, || graph.nearby(among, if in_matrix { 0 } else { NEAREST }));
     found.insert("candidates_ms".into(), json!(candidates_ms));
-    found.insert("tour_ms".into(), json!(tour_ms));
-    found.insert("kicks_per_node".into(), json!(options.kicks_per_node));
-    found.insert("tour_um".into(), json!(length));
-    let excess = |length: f64| arguments.best.map(|best| json!(100.0 * (length / best - 1.0)));
-    found.extend(excess(length).map(|value| ("excess_percent".into(), value)));
-    if arguments.seeds > 1 {
-        let lengths: Vec<f64> = (0..arguments.seeds)
-            .map(|seed| {
-                let options = TourOptions { seed: arguments.seed + seed, ..options };
-                solver.solve(&metric, &candidates, start.as_deref(), &options).length
-            })
-            .collect();
-        let mean = lengths.iter().sum::<f64>() / lengths.len() as f64;
-        let longest = lengths.iter().copied().fold(0.0, f64::max);
-        found.insert("tour_um_mean".into(), json!(mean));
-        found.insert("tour_um_longest".into(), json!(longest));
-        found.extend(excess(mean).map(|value| ("excess_percent_mean".into(), value)));
-        found.extend(excess(longest).map(|value| ("excess_percent_longest".into(), value)));
+    let mut search = Search {
+        candidates: candidates.unwrap_or_default(),
+        start,
+        options: TourOptions { neighbours: if in_matrix { NEAREST } else { 0 }, ..arguments.options() },
+        before_ms: candidates_ms + start_ms,
+        solver: TourSolver::new(),
+    };
+    match &distances {
+        Distances::Matrix(matrix) => search.run(&Rows(matrix), &arguments, &mut found),
+        distances => search.run(&Lengths(distances), &arguments, &mut found),
     }
     writeln!(io::stdout(), "{}", Value::Object(found))?;
     Ok(())
+}
+
+/// What a search for a tour begins with.
+struct Search {
+    candidates: Vec<Vec<u32>>,
+    start: Option<Vec<usize>>,
+    options: TourOptions,
+    /// What candidates and start took, ms.
+    before_ms: f64,
+    solver: TourSolver,
+}
+
+impl Search {
+    fn solve<M: Metric>(&mut self, metric: &M, options: &TourOptions) -> Tour {
+        self.solver.solve(metric, &self.candidates, self.start.as_deref(), options)
+    }
+
+    /// Searches as the command line asks for, and adds what was found.
+    fn run<M: Metric>(&mut self, metric: &M, arguments: &Arguments, found: &mut Map<String, Value>) {
+        let rounds = arguments.rounds;
+        let mut options = self.options;
+        if let Some(budget) = arguments.budget_ms {
+            let kicks = within(budget - self.before_ms, |kicks| {
+                timed(rounds, || self.solve(metric, &with_all_kicks(kicks, &options))).0
+            });
+            options = with_all_kicks(kicks, &options);
+        }
+        let (tour_ms, tour) = timed(rounds, || self.solve(metric, &options).length);
+        found.insert("tour_ms".into(), json!(tour_ms));
+        found.insert("kicks_per_node".into(), json!(options.kicks_per_node));
+        found.insert("tour_um".into(), json!(tour));
+        let excess = |length: f64| arguments.best.map(|best| json!(100.0 * (length / best - 1.0)));
+        found.extend(tour.and_then(excess).map(|value| ("excess_percent".into(), value)));
+        if arguments.seeds > 1 {
+            let lengths: Vec<f64> = (0..arguments.seeds)
+                .map(|seed| {
+                    self.solve(metric, &TourOptions { seed: arguments.seed + seed, ..options }).length
+                })
+                .collect();
+            let mean = lengths.iter().sum::<f64>() / lengths.len() as f64;
+            let longest = lengths.iter().copied().fold(0.0, f64::max);
+            found.insert("tour_um_mean".into(), json!(mean));
+            found.insert("tour_um_longest".into(), json!(longest));
+            found.extend(excess(mean).map(|value| ("excess_percent_mean".into(), value)));
+            found.extend(excess(longest).map(|value| ("excess_percent_longest".into(), value)));
+        }
+    }
 }
 
 /// The same distances by one search a terminal, and how much longer that takes.

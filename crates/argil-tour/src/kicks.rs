@@ -30,19 +30,24 @@ const DISTRICT: usize = 250;
 const FEWEST_NODES: usize = 8;
 
 impl<M: Metric> LocalSearch<'_, M> {
-    /// Spends `kicks` kicks on the tour; returns by how much it got shorter.
+    /// Spends `kicks` kicks on the tour, or fewer once `patience` in a row have not made it shorter; returns by how much it did get.
     ///
     /// Each kick is a double bridge (Martin, Otto and Felten, "Large-step Markov chains for the TSP incorporating local
     /// search heuristics", 1992, DOI 10.1016/0167-6377(92)90028-2), the exchange of four edges that no sequence of
     /// the exchanges tried by the descent contains. The descent then starts from the kick's ends alone, and
     /// what is longer afterwards is taken back.
-    pub(crate) fn iterate(&mut self, kicks: usize, random: &mut SplitMix) -> f64 {
+    pub(crate) fn iterate(&mut self, kicks: usize, patience: usize, random: &mut SplitMix) -> f64 {
         let n = self.tour.len();
         if n < FEWEST_NODES {
             return 0.0;
         }
         let mut gained = 0.0;
+        let mut in_vain = 0;
         for kick in 0..kicks {
+            if in_vain >= patience {
+                break;
+            }
+            in_vain += 1;
             if n >= FEWEST_REMEMBERED {
                 // Below the number of nodes, for the kick is below the number of kicks.
                 let start = (kick as f64 / kicks as f64 * n as f64) as usize;
@@ -53,6 +58,9 @@ impl<M: Metric> LocalSearch<'_, M> {
             let bridge = if far { self.far_bridge(random) } else { self.gentlest_near_bridge(random) };
             let Some(bridge) = bridge else { continue };
             let gain = self.cross(&bridge) + self.descend(10 * n);
+            if gain > self.least_gain {
+                in_vain = 0;
+            }
             if gain >= 0.0 {
                 gained += gain;
             } else {

@@ -18,12 +18,15 @@ pub struct TourOptions {
     /// proportion, by some 10 to 20 µs a kick. Fewer than 50 nodes get the kicks of 50. A budget that is
     /// negative or not finite counts as 0.
     pub kicks_per_node: f64,
+    /// After how many kicks in a row that shorten nothing, a node, the search ends before all are spent; what holds for few
+    /// nodes and for numbers that are none holds here as well. No less than `kicks_per_node` spends them all.
+    pub patience_per_node: f64,
     /// What the kicks are drawn from. Every seed gives another tour of much the same length.
     pub seed: u64,
 }
 
 impl Default for TourOptions {
     fn default() -> Self {
-        Self { exact_up_to: 14, neighbours: 5, kicks_per_node: 1.5, seed: 0 }
+        Self { exact_up_to: 14, neighbours: 5, kicks_per_node: 1.5, patience_per_node: 0.4, seed: 0 }
     }
 }

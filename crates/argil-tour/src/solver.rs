@@ -103,7 +103,9 @@ impl TourSolver {
             None if n < FEWEST_CONTRACTED => self.nodes.construct(metric),
             None => self.construct_by_paths(metric, neighbours, &mut random),
         }
-        self.nodes.search(metric, kicks(options.kicks_per_node, n), &mut random);
+        let [kicks, patience] =
+            [options.kicks_per_node, options.patience_per_node].map(|each| kicks(each, n));
+        self.nodes.search(metric, kicks, patience, &mut random);
     }
 
     /// Makes greedy paths, and of a short tour through them a tour of all nodes.
@@ -121,7 +123,8 @@ impl TourSolver {
             self.ends.candidates.build(&ends, 0, &found);
         }
         self.ends.construct(&ends);
-        self.ends.search(&ends, KICKS_PER_END * ends.nodes(), random);
+        let kicks = KICKS_PER_END * ends.nodes();
+        self.ends.search(&ends, kicks, kicks, random);
         self.contraction.expand(&self.ends.order, &self.paths, &mut self.nodes.order);
     }
 }
@@ -142,7 +145,7 @@ impl Level {
         self.greedy.construct(metric, &self.candidates, &mut self.order);
     }
 
-    fn search<M: Metric>(&mut self, metric: &M, kicks: usize, random: &mut SplitMix) {
+    fn search<M: Metric>(&mut self, metric: &M, kicks: usize, patience: usize, random: &mut SplitMix) {
         let n = metric.nodes();
         self.tour.set(&self.order, |a, b| metric.distance(a as usize, b as usize));
         self.queue.reset(n);
@@ -151,7 +154,7 @@ impl Level {
             search.queue.push(node);
         }
         search.descend(100 * n);
-        search.iterate(kicks, random);
+        search.iterate(kicks, patience, random);
         self.order.clear();
         self.order.extend(self.tour.stops().iter().map(|stop| stop.node));
     }

@@ -44,8 +44,22 @@ fn a_grid_is_toured_by_unit_steps() {
     let points: Vec<(f64, f64)> = (0..144).map(|k| (f64::from(k % 12), f64::from(k / 12))).collect();
     let distances = plane(&points);
     let metric = MatrixMetric::new(144, &distances).unwrap();
-    let options = TourOptions { kicks_per_node: 10.0, ..TourOptions::default() };
+    let options = TourOptions { kicks_per_node: 10.0, patience_per_node: 10.0, ..TourOptions::default() };
     assert_eq!(shortest_tour(&metric, &[], None, &options).length, 144.0);
+}
+
+#[test]
+fn a_search_without_success_ends_before_its_kicks_are_spent() {
+    let points: Vec<(f64, f64)> = (0..100).map(|k| (f64::from(k % 10), f64::from(k / 10))).collect();
+    let metric = Counting { points, asked: std::cell::Cell::new(0) };
+    let asked = |patience_per_node: f64| {
+        let options = TourOptions { kicks_per_node: 10.0, patience_per_node, ..TourOptions::default() };
+        metric.asked.set(0);
+        (shortest_tour(&metric, &[], None, &options).length, metric.asked.get())
+    };
+    let ((patient, all), (impatient, few), (none, least)) = (asked(10.0), asked(1.0), asked(0.0));
+    assert!(patient == 100.0 && impatient == 100.0 && none >= 100.0);
+    assert!(least < few && few < all / 2, "{least}, {few} and {all} distances");
 }
 
 /// Points of the plane that count how often they are asked.
