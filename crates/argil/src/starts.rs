@@ -1,5 +1,7 @@
 //! Where each layer begins, and the steps from layer to layer.
 
+use std::ops::Range;
+
 use argil_curve::{ClosedCurve, DVec2};
 use argil_seam::SeamError;
 use argil_slice::Layer;
@@ -26,6 +28,9 @@ const AT_ROOT: f64 = 4.0;
 
 /// What a way from the skirt costs for each w of its length, in w².
 const FROM_SKIRT: f64 = 0.1;
+
+/// A chain that asks too much mostly breaks off in the tips of the part: so many layers from the top are tried by themselves first.
+const TIPS: usize = 12;
 
 /// How often the chain is sought again with starts left out that no short, clear step leads to once they are on the grid.
 const REPLANS: usize = 8;
@@ -173,31 +178,51 @@ impl<'a> Stack<'a> {
         levels: &[Level],
         left_out: &[Vec<DVec2>],
     ) -> Result<(usize, Vec<f64>), SeamError> {
-        let width = self.settings.width;
+        let count = self.layers.len();
+        let tips = count.saturating_sub(TIPS)..count;
         let mut fault = SeamError::NoStart;
         for (k, level) in levels.iter().enumerate() {
-            let cost = |layer: usize, p: DVec2| {
-                if left_out[layer].iter().any(|place| place.distance(p) < LEFT_OUT * width) {
-                    return f64::INFINITY;
-                }
-                let from_root = self.sights[layer].on_wall(p);
-                let shown = match from_root {
-                    // A step that does not rise does not show, and where a lane leads away and back the last turn lies beside the first.
-                    _ if self.settings.spiral => {
-                        from_root.map_or(OFF_WALL, |from_root| level.beside_root(from_root))
-                    }
-                    Some(from_root) => VISIBLE + level.beside_root(from_root),
-                    None => 0.0,
-                };
-                let in_order = self.order(layer).map_or(0.0, |order| order.cost(p));
-                (shown + in_order) * width * width + self.end_cost(layer, p, from_root.is_some())
-            };
-            match seam.starts(&self.cycles, &self.footholds, level.reach, self.settings, &cost) {
+            // A chain of all layers has one of the tips in it. The last level is tried on all, so that a fault has its place.
+            let is_tried = tips.start > 0 && k + 1 < levels.len();
+            if is_tried && self.chain_of(tips.clone(), seam, level, left_out).is_err() {
+                continue;
+            }
+            match self.chain_of(0..count, seam, level, left_out) {
                 Ok(starts) => return Ok((k, starts)),
                 Err(why) => fault = why,
             }
         }
         Err(fault)
+    }
+
+    /// A chain through some of the layers.
+    fn chain_of(
+        &self,
+        layers: Range<usize>,
+        seam: &mut impl Seam,
+        level: &Level,
+        left_out: &[Vec<DVec2>],
+    ) -> Result<Vec<f64>, SeamError> {
+        let width = self.settings.width;
+        let cost = |layer: usize, p: DVec2| {
+            let layer = layers.start + layer;
+            if left_out[layer].iter().any(|place| place.distance(p) < LEFT_OUT * width) {
+                return f64::INFINITY;
+            }
+            let from_root = self.sights[layer].on_wall(p);
+            let shown = match from_root {
+                // A step that does not rise does not show, and where a lane leads away and back the last turn lies beside the first.
+                _ if self.settings.spiral => {
+                    from_root.map_or(OFF_WALL, |from_root| level.beside_root(from_root))
+                }
+                Some(from_root) => VISIBLE + level.beside_root(from_root),
+                None => 0.0,
+            };
+            let in_order = self.order(layer).map_or(0.0, |order| order.cost(p));
+            (shown + in_order) * width * width + self.end_cost(layer, p, from_root.is_some())
+        };
+        let (cycles, footholds) = (&self.cycles[layers.clone()], &self.footholds[layers.clone()]);
+        seam.starts(cycles, footholds, level.reach, self.settings, &cost)
     }
 
     /// The layers opened at their starts, or near them, by steps no longer than `reach`; `anywhere`, where no place nearby will do.
