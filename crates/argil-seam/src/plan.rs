@@ -4,7 +4,17 @@ use crate::candidates::{Candidates, Reached, ReachedGrid};
 use crate::step::{is_clear, is_clear_by, sharp_turns};
 use crate::{SeamError, SeamSettings};
 use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex};
-use std::cell::OnceCell;
+#[cfg(feature = "rayon")]
+use rayon::prelude::*;
+use std::ops::Range;
+use std::sync::OnceLock;
+
+/// Layers whose places are found at once. The chain may break off at any layer, and what is found beyond is of no use.
+const BATCH: usize = 16;
+
+/// Fewer places than this are not worth another thread.
+#[cfg(feature = "rayon")]
+const FEWEST_SHARED: usize = 128;
 
 /// What is known of one layer.
 struct Layer {
@@ -39,27 +49,19 @@ impl<'a> Plan<'a> {
         cost: &'a dyn Fn(usize, DVec2) -> f64,
     ) -> Result<Self, SeamError> {
         let mut plan = Self { cycles, settings, cost, layers: Vec::with_capacity(cycles.len()) };
-        for (layer, cycle) in cycles.iter().enumerate() {
-            let candidates = Candidates::along(cycle, settings.spacing, also.get(layer).copied());
-            let count = candidates.points.len();
-            let mut costs = vec![f64::INFINITY; count];
-            let mut from = vec![0; count];
-            let ascent =
-                layer.checked_sub(1).map(|below| Ascent::new(&cycles[below], &plan.layers[below], settings));
-            for (k, &p) in candidates.points.iter().enumerate() {
-                let extra = plan.extra(layer, p);
-                match &ascent {
-                    None => costs[k] = extra,
-                    Some(_) if extra.is_infinite() => {}
-                    Some(ascent) => {
-                        if let Some(best) = ascent.cheapest(p, candidates.headings[k].leaving) {
-                            (costs[k], from[k]) = (best.cost + extra, best.candidate);
-                        }
-                    }
-                }
+        for first in (0..cycles.len()).step_by(BATCH) {
+            let batch = first..(first + BATCH).min(cycles.len());
+            for (layer, candidates) in batch.clone().zip(places_along(batch, cycles, also, settings.spacing))
+            {
+                let extras: Vec<f64> = candidates.points.iter().map(|&p| plan.extra(layer, p)).collect();
+                let (costs, from) = match layer.checked_sub(1) {
+                    None => (extras, vec![0; candidates.points.len()]),
+                    Some(below) => Ascent::new(&cycles[below], &plan.layers[below], settings)
+                        .reached(&candidates, &extras),
+                };
+                plan.layers.push(Layer { candidates, costs, from, tested: None });
+                plan.check(layer)?;
             }
-            plan.layers.push(Layer { candidates, costs, from, tested: None });
-            plan.check(layer)?;
         }
         Ok(plan)
     }
@@ -195,19 +197,40 @@ impl<'a> Plan<'a> {
     }
 }
 
+/// The places of some layers. None depends on another layer.
+fn places_along(layers: Range<usize>, cycles: &[ClosedCurve], also: &[f64], spacing: f64) -> Vec<Candidates> {
+    #[cfg(feature = "rayon")]
+    let layers = layers.into_par_iter();
+    layers.map(|layer| Candidates::along(&cycles[layer], spacing, also.get(layer).copied())).collect()
+}
+
 /// The way up from one layer.
 struct Ascent<'a> {
     reached: ReachedGrid,
     cycle: &'a ClosedCurve,
     /// The segments of `cycle`, built when a start comes up that no near candidate shows to be held.
-    ground: OnceCell<SegmentIndex>,
+    ground: OnceLock<SegmentIndex>,
     settings: &'a SeamSettings,
 }
 
 impl<'a> Ascent<'a> {
     fn new(cycle: &'a ClosedCurve, layer: &Layer, settings: &'a SeamSettings) -> Self {
         let reached = ReachedGrid::over(&layer.candidates, &layer.costs, settings.reach);
-        Self { reached, cycle, ground: OnceCell::new(), settings }
+        Self { reached, cycle, ground: OnceLock::new(), settings }
+    }
+
+    /// For each candidate of the next layer, which itself costs `extras`, the cost of the cheapest chain to it and where it comes from.
+    fn reached(&self, candidates: &Candidates, extras: &[f64]) -> (Vec<f64>, Vec<u32>) {
+        let places = 0..candidates.points.len();
+        #[cfg(feature = "rayon")]
+        let places = places.into_par_iter().with_min_len(FEWEST_SHARED);
+        let reached = |k: usize| {
+            let best = extras[k]
+                .is_finite()
+                .then(|| self.cheapest(candidates.points[k], candidates.headings[k].leaving));
+            best.flatten().map_or((f64::INFINITY, 0), |best| (best.cost + extras[k], best.candidate))
+        };
+        places.map(reached).unzip()
     }
 
     /// The start below from which `p` is reached at the least cost, which is that of its chain, the
