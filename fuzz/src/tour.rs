@@ -12,6 +12,7 @@ pub fn tour(bytes: &[u8]) {
         exact_up_to: 0,
         neighbours: 1 + draw.below(8),
         kicks_per_node: draw.within(0.0, 12.0),
+        patience_per_node: draw.within(0.0, 12.0),
         seed: u64::from(draw.byte()),
     };
     let mut entries = vec![0.0; nodes * nodes];

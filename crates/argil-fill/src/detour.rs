@@ -4,7 +4,6 @@ use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex, on_grid};
 
 use crate::bare::BareDisc;
 use crate::curve::{Bead, FillCurve};
-use crate::rings::WHOLE;
 
 /// A stretch of a curve that is replaced by two straight legs.
 #[derive(Clone, Copy, Debug)]
@@ -35,6 +34,9 @@ const BESIDE: f64 = 0.3;
 
 /// A tip keeps so far away from all other strand, in w.
 const TIP_APART: f64 = 0.45;
+
+/// Legs of fill keep so far away from the edge of their region, in w: half a bead, but for what rings lose at corners that are cut.
+const EDGE_APART: f64 = 0.475;
 
 /// Legs keep so far away from strand that is not beside their ends, in w.
 const LEG_APART: f64 = 0.1;
@@ -200,7 +202,7 @@ impl<'a> Strand<'a> {
         for leg in legs {
             // Walls that were given lie beside the region, and those of its own shut it in.
             if walls == 0 {
-                let away = WHOLE * self.width;
+                let away = EDGE_APART * self.width;
                 self.edges.for_each_near(leg, away, |_, edge| clear &= leg.distance_to(&edge) >= away);
             }
             // Its base lies on the curve itself.

@@ -18,7 +18,7 @@ use crate::{FillError, FillOptions};
 const SLIGHT: f64 = 0.02;
 
 /// Paths so near to the edge of their region, in w, are no insets by half a bead.
-pub(crate) const WHOLE: f64 = 0.45;
+const WHOLE: f64 = 0.45;
 
 /// Rings shorter than this are blobs, in w.
 const LEAST_LENGTH: f64 = 0.5;
