@@ -136,6 +136,8 @@ pub trait Seam {
     /// The arc of the start on each cycle, bottom first, no step longer than `reach`, mm. `footholds` are the arcs of a
     /// chain that was kept open while the layers were planned, one a cycle.
     ///
+    /// The uppermost layers are asked for by themselves first: where they have no chain, the whole has none.
+    ///
     /// # Errors
     /// When two layers cannot be joined by a short, held step.
     fn starts(
