@@ -9,6 +9,7 @@ mod baseline;
 mod cycle;
 mod instance;
 mod layer;
+mod metric;
 mod random;
 
 pub use argil_curve::DVec2;
@@ -16,6 +17,7 @@ pub use baseline::{by_heap, by_petgraph, petgraph_of};
 pub use cycle::Excursions;
 pub use instance::Instance;
 pub use layer::MixedLayer;
+pub use metric::{Lengths, Rows};
 pub use random::SplitMix;
 
 /// Bead width w of all instances, mm: that of the paper.

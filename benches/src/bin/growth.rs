@@ -17,9 +17,9 @@ use std::process::ExitCode;
 use std::time::Instant;
 use std::{env, fs, io};
 
-use argil_benches::MixedLayer;
+use argil_benches::{Lengths, MixedLayer};
 use argil_graph::{Distances, PathGraph};
-use argil_tour::{Metric, Tour, TourOptions, TourSolver};
+use argil_tour::{Tour, TourOptions, TourSolver};
 use serde_json::json;
 
 /// How many nearest points are candidates, besides those whose cells touch.
@@ -83,20 +83,6 @@ fn run() -> Result<(), Box<dyn Error>> {
     match layer {
         Some(terminals) => one_layer(&made(terminals), most_bytes),
         None => table(&sizes, made, rounds),
-    }
-}
-
-/// The distances as the search asks for them.
-struct Lengths<'a>(&'a Distances<'a>);
-
-impl Metric for Lengths<'_> {
-    fn nodes(&self) -> usize {
-        self.0.len()
-    }
-
-    #[inline]
-    fn distance(&self, a: usize, b: usize) -> f64 {
-        self.0.get(a, b)
     }
 }
 

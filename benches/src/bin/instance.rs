@@ -21,8 +21,8 @@ use std::process::ExitCode;
 use std::time::Instant;
 use std::{env, fs, io};
 
-use argil_benches::{Instance, by_heap, by_petgraph, petgraph_of};
-use argil_graph::{DistanceMatrix, Distances, PathGraph};
+use argil_benches::{Instance, Lengths, Rows, by_heap, by_petgraph, petgraph_of};
+use argil_graph::{Distances, PathGraph};
 use argil_tour::{Metric, Tour, TourOptions, TourSolver};
 use serde_json::{Map, Value, json};
 
@@ -108,38 +108,6 @@ impl Arguments {
 /// The options with so many kicks a node, all of which are spent.
 fn with_all_kicks(kicks_per_node: f64, options: &TourOptions) -> TourOptions {
     TourOptions { kicks_per_node, patience_per_node: kicks_per_node, ..*options }
-}
-
-/// A matrix of distances as the search asks for it.
-struct Rows<'a>(&'a DistanceMatrix);
-
-impl Metric for Rows<'_> {
-    fn nodes(&self) -> usize {
-        self.0.len()
-    }
-
-    #[inline]
-    fn distance(&self, a: usize, b: usize) -> f64 {
-        self.0.row(a)[b]
-    }
-
-    fn row(&self, a: usize) -> Option<&[f64]> {
-        Some(self.0.row(a))
-    }
-}
-
-/// Distances of any kind as the search asks for them.
-struct Lengths<'a>(&'a Distances<'a>);
-
-impl Metric for Lengths<'_> {
-    fn nodes(&self) -> usize {
-        self.0.len()
-    }
-
-    #[inline]
-    fn distance(&self, a: usize, b: usize) -> f64 {
-        self.0.get(a, b)
-    }
 }
 
 /// The least time of some rounds in milliseconds, and what the last one gave.
