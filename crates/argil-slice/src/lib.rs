@@ -23,6 +23,7 @@ mod layer;
 mod loops;
 mod mitre;
 mod openings;
+mod pockets;
 mod prisms;
 mod pruning;
 mod region;

@@ -1,11 +1,11 @@
 //! Walls that follow what is thinner than a bead.
 
 use crate::containment::contains;
-use crate::region::{perimeter, ring_points, rings, swept};
-use crate::spine::sides;
+use crate::pockets::{with_bays, without_gaps};
+use crate::region::{ring_points, rings, swept};
 use argil_curve::{Segment, SegmentIndex};
-use geo::{Area, BooleanOps};
-use geo_types::{LineString, MultiPolygon, Polygon};
+use geo::BooleanOps;
+use geo_types::{MultiPolygon, Polygon};
 use glam::DVec2;
 
 /// Half the distance between the two lanes of a spine, in w: far above the grid and the simplification, and so
@@ -17,13 +17,6 @@ const SPECK: f64 = 0.1;
 
 /// Specks all of which lie within this of the spine, in w, are the same path as it.
 const SAME: f64 = 0.035;
-
-/// Holes smaller than this, in w², are gaps between a spine and its wall.
-const LEAST_HOLE: f64 = 0.01;
-
-/// Pockets of solid that a spine shuts off from its wall and that are shorter round than this, in w, are covered by the beads around
-/// them. A loop of their own could only be reached through the wall, with less than a bead along it.
-const LEAST_POCKET: f64 = 2.0;
 
 /// The region whose boundary runs along these walls and to both sides of each spine.
 ///
@@ -48,24 +41,8 @@ pub(crate) fn with_spines(
     if !ties.is_empty() {
         joined = joined.union(&swept(&ties, HALF_LANE * width));
     }
-    joined.into_iter().map(|polygon| without_gaps(polygon, outline, width)).collect()
-}
-
-/// The region without holes that are gaps between a spine and its wall, or pockets of solid that both shut off.
-pub(crate) fn without_gaps(polygon: Polygon<f64>, outline: &[Vec<DVec2>], width: f64) -> Polygon<f64> {
-    let outer = SegmentIndex::new(sides(&ring_points(polygon.exterior())).collect(), width);
-    let near = 3.0 * HALF_LANE * width;
-    let stays = |hole: &LineString<f64>| {
-        let area = Polygon::new(hole.clone(), Vec::new()).unsigned_area();
-        let points = ring_points(hole);
-        let is_beside = || points.iter().all(|&p| outer.is_within(p, near));
-        let is_pocket = || !outline.iter().any(|ring| contains(&points, ring[0]));
-        let is_small = perimeter(&points) < LEAST_POCKET * width;
-        area >= LEAST_HOLE * width * width && !is_beside() && !(is_small && is_pocket())
-    };
-    let (exterior, mut holes) = polygon.into_inner();
-    holes.retain(stays);
-    Polygon::new(exterior, holes)
+    let opened = joined.into_iter().map(|polygon| with_bays(polygon, walls, outline, width));
+    opened.map(|polygon| without_gaps(polygon, outline, width)).collect()
 }
 
 /// A short line from a spine into a speck beside it.
