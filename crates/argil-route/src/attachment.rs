@@ -27,16 +27,27 @@ impl Attachments {
     }
 
     /// The arc nearest to `wanted` that keeps the gap to all taken ones; the one with most room, up to a quarter
-    /// of a small wall, where there is no such place. `inside` tells that the strand lies inside of the loop.
-    pub(crate) fn free_near(&self, wall: usize, curve: &ClosedCurve, wanted: f64, inside: bool) -> f64 {
+    /// of a small wall, where there is no such place. `inside` tells that the strand lies inside of the loop, and `hops` that it
+    /// comes from the other lane of a spine.
+    pub(crate) fn free_near(
+        &self,
+        wall: usize,
+        curve: &ClosedCurve,
+        wanted: f64,
+        (inside, hops): (bool, bool),
+    ) -> f64 {
         let length = curve.length();
         let gap = self.gap.min(0.25 * length);
         let Spines { roots, lanes } = &self.spines[wall];
         // What lies between the lanes of a spine is solid, which is where a loop round solid has its inside.
         let in_solid = inside == (curve.signed_area() > 0.0);
-        let is_shut = |arc: f64| {
-            let after = |from: f64, to: f64| (to - from).rem_euclid(length);
-            in_solid && lanes.iter().any(|&[from, to]| after(from, arc) <= after(from, to))
+        let after = |from: f64, to: f64| (to - from).rem_euclid(length);
+        let is_in = |&[from, to]: &[f64; 2], arc: f64| after(from, arc) <= after(from, to);
+        // Elsewhere the other side is that of another wall.
+        let crossed = lanes.iter().find(|stretch| hops && is_in(stretch, wanted));
+        let is_shut = |arc: f64| match crossed {
+            Some(stretch) => !is_in(stretch, arc),
+            None => in_solid && lanes.iter().any(|stretch| is_in(stretch, arc)),
         };
         let clear = |arc: f64| {
             if is_shut(arc) {
@@ -140,7 +151,7 @@ mod tests {
         let curve = square();
         let mut attachments = Attachments::new(vec![Spines::default()], 2.5, 0.7, 0.5);
         attachments.take(0, 5.0);
-        let arc = attachments.free_near(0, &curve, 5.2, true);
+        let arc = attachments.free_near(0, &curve, 5.2, (true, false));
         assert!(curve.arc_gap(arc, 5.0) >= 2.5);
         assert!(curve.arc_gap(arc, 5.2) <= 3.5);
     }
@@ -149,8 +160,8 @@ mod tests {
     fn the_root_of_a_spine_is_kept_clear_of() {
         let curve = square();
         let attachments =
-            Attachments::new(vec![Spines { roots: vec![5.0], lanes: Vec::new() }], 2.5, 0.7, 0.1);
-        let gap = curve.arc_gap(attachments.free_near(0, &curve, 5.2, true), 5.0);
+            Attachments::new(vec![Spines { roots: vec![5.0], ..Spines::default() }], 2.5, 0.7, 0.1);
+        let gap = curve.arc_gap(attachments.free_near(0, &curve, 5.2, (true, false)), 5.0);
         assert!((0.7..0.9).contains(&gap));
     }
 
@@ -159,8 +170,14 @@ mod tests {
         let curve = square();
         let spine = Spines { roots: vec![4.0, 8.0], lanes: vec![[4.0, 8.0]] };
         let attachments = Attachments::new(vec![spine], 2.5, 0.7, 0.1);
-        assert!(!(4.0..=8.0).contains(&attachments.free_near(0, &curve, 6.0, true)), "inside is shut");
-        assert!((4.0..=8.0).contains(&attachments.free_near(0, &curve, 6.0, false)), "outside is not");
+        assert!(
+            !(4.0..=8.0).contains(&attachments.free_near(0, &curve, 6.0, (true, false))),
+            "inside is shut"
+        );
+        assert!(
+            (4.0..=8.0).contains(&attachments.free_near(0, &curve, 6.0, (false, false))),
+            "outside is not"
+        );
     }
 
     #[test]
@@ -169,7 +186,7 @@ mod tests {
         let curve = ClosedCurve::new(corners.iter().map(|&(x, y)| DVec2::new(x, y)).collect()).unwrap();
         let mut attachments = Attachments::new(vec![Spines::default()], 2.5, 0.7, 0.5);
         attachments.take(0, 0.0);
-        let arc = attachments.free_near(0, &curve, 0.0, true);
+        let arc = attachments.free_near(0, &curve, 0.0, (true, false));
         assert!(curve.arc_gap(arc, 0.0) > 0.2);
     }
 }

@@ -13,6 +13,7 @@ use crate::cycle::Leg;
 use crate::excursion::{Excursion, Hops, Stops};
 use crate::joint::{Reuse, join_walls};
 use crate::round_tour::{meeting_places, taken_along};
+use crate::spine::LANES;
 use crate::straight::Straight;
 use crate::tours::{TourDistances, Tours};
 use crate::{Region, RouteError, RouteSettings};
@@ -73,6 +74,12 @@ const WORTH: f64 = 0.9;
 
 /// The way to a wall that counts in full where stops are paired, in w.
 const FAR: f64 = 87.5;
+
+/// Strand nearer than this to a wall all along, in w, lies between the lanes of a thin part.
+const BETWEEN: f64 = 0.04;
+
+/// What it counts there: it pierces the wall at both ends and lies on the bead of the lanes. A hop from lane to lane is short enough.
+const BETWEEN_COST: f64 = 5.0;
 
 /// A stop of a sketched tour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -171,10 +178,12 @@ impl RegionView<'_> {
         &self.curves[self.walls[local]]
     }
 
-    /// The arc of one of the region's walls that is nearest to a wanted one and free.
-    fn free_near(&self, taken: &Attachments, local: usize, wanted: f64) -> f64 {
+    /// The arc of one of the region's walls that is nearest to a wanted one and free. `from` is where its strand comes from.
+    fn free_near(&self, taken: &Attachments, local: usize, wanted: f64, from: DVec2) -> f64 {
         let wall = self.walls[local];
-        taken.free_near(wall, &self.curves[wall], wanted, self.region.outer == Some(wall))
+        let curve = &self.curves[wall];
+        let hops = curve.point_at(wanted).distance(from) < LANES * self.settings.width;
+        taken.free_near(wall, curve, wanted, (self.region.outer == Some(wall), hops))
     }
 
     /// Walls joined by a tree, demands served by excursions.
@@ -188,7 +197,8 @@ impl RegionView<'_> {
         let mut taken = taken.clone();
         let mut places = Vec::with_capacity(joints.len());
         for joint in &joints {
-            let arc = self.free_near(&taken, joint.wall, joint.arc);
+            let on_parent = walls[joint.parent].nearest(walls[joint.wall].point_at(joint.arc)).point;
+            let arc = self.free_near(&taken, joint.wall, joint.arc, on_parent);
             taken.take(self.walls[joint.wall], arc);
             places.push((joint.wall, arc));
         }
@@ -204,9 +214,11 @@ impl RegionView<'_> {
             row[joint.parent] = walls[joint.parent].nearest(place).distance;
             reach.push(row);
         }
+        let hopping: Vec<bool> =
+            joints.iter().zip(&reach).map(|(joint, row)| row[joint.parent] < LANES * s.width).collect();
         reach.extend(to_wall);
         let bound: Vec<bool> = (0..at.len()).map(|k| k < joints.len()).collect();
-        let hops = self.straight(&at);
+        let hops = self.straight(&at, &hopping);
         let stops = Stops {
             hops: &hops,
             to_wall: &reach,
@@ -240,7 +252,7 @@ impl RegionView<'_> {
             let near = excursion.stops.iter().copied();
             let near =
                 near.min_by(|&a, &b| reach(a).total_cmp(&reach(b)).then(a.cmp(&b))).unwrap_or_default();
-            let arc = self.free_near(taken, excursion.wall, curve.nearest(at(near)).s);
+            let arc = self.free_near(taken, excursion.wall, curve.nearest(at(near)).s, at(near));
             taken.take(wall, arc);
             let home = Stop::Place(sketch.places.len());
             sketch.places.push((excursion.wall, arc));
@@ -259,11 +271,11 @@ impl RegionView<'_> {
             let (wall, curve) = (self.walls[place.0], self.wall(place.0));
             if let Some(tour) = homes.get(&k) {
                 let near = tour.iter().filter_map(|stop| match *stop {
-                    Stop::Demand(demand) => Some(curve.nearest(demands[demand])),
+                    Stop::Demand(demand) => Some((curve.nearest(demands[demand]), demands[demand])),
                     Stop::Place(_) => None,
                 });
-                if let Some(near) = near.min_by(|p, q| p.distance.total_cmp(&q.distance)) {
-                    place.1 = self.free_near(&taken, place.0, near.s);
+                if let Some((near, from)) = near.min_by(|p, q| p.0.distance.total_cmp(&q.0.distance)) {
+                    place.1 = self.free_near(&taken, place.0, near.s, from);
                 }
             }
             taken.take(wall, place.1);
@@ -297,10 +309,12 @@ impl RegionView<'_> {
     /// Where one tour through the walls and the given points meets each of the walls.
     fn met_by_one_tour(&self, points: &[DVec2], taken: &mut Attachments) -> Vec<(usize, f64)> {
         let walls: Vec<&ClosedCurve> = (0..self.walls.len()).map(|w| self.wall(w)).collect();
-        let wanted = meeting_places(&walls, points, &self.settings.tour).into_iter().enumerate();
+        let wanted = meeting_places(&walls, points, &self.settings.tour);
+        let wanted = wanted.into_iter().enumerate();
         wanted
             .map(|(local, arc)| {
-                let arc = self.free_near(taken, local, arc);
+                // It has to get on from there to the next wall.
+                let arc = self.free_near(taken, local, arc, DVec2::INFINITY);
                 taken.take(self.walls[local], arc);
                 (local, arc)
             })
@@ -319,7 +333,7 @@ impl RegionView<'_> {
         let to_wall: Vec<Vec<f64>> =
             demands.iter().map(|&d| walls.iter().map(|w| w.nearest(d).distance).collect()).collect();
         let bound = vec![false; demands.len()];
-        let hops = self.straight(&at);
+        let hops = self.straight(&at, &[]);
         let stops = Stops {
             hops: &hops,
             to_wall: &to_wall,
@@ -341,11 +355,16 @@ impl RegionView<'_> {
         Ok(sketch)
     }
 
-    /// Straight hops between places.
-    fn straight<'a>(&'a self, places: &'a [DVec2]) -> Straight<'a, impl Fn(DVec2, DVec2) -> f64 + 'a> {
+    /// Straight hops between places, of which some hop across a spine.
+    fn straight<'a>(
+        &'a self,
+        places: &'a [DVec2],
+        hopping: &'a [bool],
+    ) -> Straight<'a, impl Fn(DVec2, DVec2) -> f64 + 'a> {
         Straight {
             places,
             walls: &self.index,
+            hopping,
             cheapest: self.settings.coherence.min(1.0),
             weight: |a, b| self.weight(a, b),
             grid: self.settings.grid,
@@ -449,7 +468,11 @@ impl RegionView<'_> {
         let crowding = |t: f64| {
             self.index.nearest_within(a.lerp(b, t), s.width).map_or(0.0, |near| 1.0 - near.distance / s.width)
         };
-        weight * (1.0 + s.wall_penalty * (crowding(0.15) + crowding(0.5) + crowding(0.85)) / 3.0)
+        let crowded = [0.15, 0.5, 0.85].map(crowding);
+        if crowded.iter().all(|&c| c > 1.0 - BETWEEN) {
+            weight *= BETWEEN_COST;
+        }
+        weight * (1.0 + s.wall_penalty * (crowded[0] + crowded[1] + crowded[2]) / 3.0)
     }
 
     /// Distances among vertices, all of them finite.

@@ -1,9 +1,9 @@
-//! Where a wall turns off to run along the middle of a thin part, there and back.
+//! Where a wall turns off to run along the middle of a thin part, there and back, or beside the wall of the hole beyond.
 
 use argil_curve::{ClosedCurve, DVec2, Segment, SegmentIndex};
 
-/// Two lanes of one wall that are nearer than this, in w, are a spine.
-const LANES: f64 = 0.06;
+/// Two lanes that are nearer than this, in w, are a spine.
+pub(crate) const LANES: f64 = 0.06;
 
 /// Stretches of a wall are two lanes if at least this much of it lies between them, in w. A spine's tip is shorter.
 const TURN: f64 = 0.3;
@@ -13,7 +13,8 @@ const TURN: f64 = 0.3;
 pub(crate) struct Spines {
     /// Arcs where the wall turns off into a spine. A strand that came from inside there would seem to pass through the wall.
     pub(crate) roots: Vec<f64>,
-    /// The stretches between them, from arc to arc. Between the two lanes of one there is no room for strand.
+    /// The stretches between them, from arc to arc. Between the two lanes of one there is room for a hop across, where they are those of two
+    /// walls, and for no other strand.
     pub(crate) lanes: Vec<[f64; 2]>,
 }
 
@@ -35,9 +36,12 @@ pub(crate) fn spines(walls: &[ClosedCurve], all: &SegmentIndex, width: f64) -> V
                 let mut found = false;
                 all.for_each_near(Segment::new(p, p), LANES * width, |index, segment| {
                     let near = segment.nearest(p);
-                    if own.contains(&index) && near.point.distance(p) < LANES * width {
-                        let there = wall.arc_of(index - own.start) + near.point.distance(segment.start);
-                        found |= wall.arc_gap(arc, there) > TURN * width;
+                    if near.point.distance(p) < LANES * width {
+                        // Between two holes the lanes are those of two walls.
+                        found |= !own.contains(&index) || {
+                            let there = wall.arc_of(index - own.start) + near.point.distance(segment.start);
+                            wall.arc_gap(arc, there) > TURN * width
+                        };
                     }
                 });
                 found

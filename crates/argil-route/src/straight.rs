@@ -17,6 +17,8 @@ pub(crate) struct Straight<'a, W> {
     /// Where the stops are.
     pub(crate) places: &'a [DVec2],
     pub(crate) walls: &'a SegmentIndex,
+    /// Those whose strand hops across a spine: no way leads on from them.
+    pub(crate) hopping: &'a [bool],
     /// The least that a way counts, as a share of its length.
     pub(crate) cheapest: f64,
     /// What a way counts that no wall crosses.
@@ -37,7 +39,8 @@ impl<W: Fn(DVec2, DVec2) -> f64> Hops for Straight<'_, W> {
             return known;
         }
         let (from, to) = (self.places[key.0], self.places[key.1]);
-        let whole = (!self.is_barred(from, to)).then(|| (self.weight)(from, to));
+        let hops = |k: usize| self.hopping.get(k) == Some(&true);
+        let whole = (!hops(a) && !hops(b) && !self.is_barred(from, to)).then(|| (self.weight)(from, to));
         self.known.borrow_mut().insert(key, whole);
         whole
     }
