@@ -57,11 +57,25 @@ impl Attachments {
             let from_root = roots.iter().map(|&t| curve.arc_gap(arc, t));
             from_root.map(|room| room * gap / self.root_gap).fold(room, f64::min)
         };
+        // Beyond lanes that lead on to another part lies another room; beyond those of a dead end the same. What is wanted between lanes
+        // has none.
+        let leads_on = |stretch: &[f64; 2]| {
+            let [from, to] = stretch.map(|arc| curve.point_at(arc));
+            from.distance(to) > self.root_gap
+        };
+        let is_door =
+            |arc: f64| in_solid && lanes.iter().any(|stretch| is_in(stretch, arc) && leads_on(stretch));
+        let has_room = crossed.is_none() && !is_door(wanted);
         let tries = (0.5 * length / self.step).ceil().min(200.0) as usize;
         let mut best = (clear(wanted), wanted);
+        let mut is_open = [true; 2];
         for k in 0..=tries {
-            for side in [1.0, -1.0] {
+            for (side, is_open) in [1.0, -1.0].into_iter().zip(&mut is_open) {
                 let arc = (wanted + side * k as f64 * self.step).rem_euclid(length);
+                *is_open &= !(has_room && is_door(arc));
+                if !*is_open {
+                    continue;
+                }
                 let room = clear(arc);
                 if room >= gap {
                     return arc;
@@ -178,6 +192,27 @@ mod tests {
             (4.0..=8.0).contains(&attachments.free_near(0, &curve, 6.0, (false, false))),
             "outside is not"
         );
+    }
+
+    #[test]
+    fn a_hop_stays_between_the_lanes() {
+        let curve = square();
+        let spine = Spines { roots: vec![4.0, 8.0], lanes: vec![[4.0, 8.0]] };
+        let mut attachments = Attachments::new(vec![spine], 2.5, 0.7, 0.1);
+        attachments.take(0, 4.5);
+        let arc = attachments.free_near(0, &curve, 4.6, (true, true));
+        assert!(arc > 4.6 && (4.0..=8.0).contains(&arc), "apart from what is taken: {arc}");
+    }
+
+    #[test]
+    fn beyond_lanes_that_lead_on_lies_another_room() {
+        let curve = square();
+        let spine = Spines { roots: vec![4.0, 8.0], lanes: vec![[4.0, 8.0]] };
+        let mut attachments = Attachments::new(vec![spine], 2.5, 0.7, 0.1);
+        attachments.take(0, 2.0);
+        let arc = attachments.free_near(0, &curve, 3.9, (true, false));
+        assert!(!(2.0..=8.0).contains(&arc), "back past what is taken, not through the lanes: {arc}");
+        assert!(curve.arc_gap(arc, 2.0) >= 2.5);
     }
 
     #[test]

@@ -150,7 +150,8 @@ impl<U: Support, R: Route, E: Smooth, T: Tauten> Descent<'_, U, R, E, T> {
         let mut flawed = places(&best, passages);
         let mut fewest = if best.is_ok() { flawed.len() } else { usize::MAX };
         for _ in 0..RETRIES {
-            if flawed.is_empty() || !self.checked {
+            // Nothing comes of what is barred already.
+            if !self.checked || flawed.iter().all(|place| barred.contains(place)) {
                 break;
             }
             barred.append(&mut flawed);
