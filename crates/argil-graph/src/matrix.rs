@@ -14,16 +14,18 @@ pub(crate) const NOWHERE: u32 = u32::MAX;
 /// assert!(distances.len() == 2 && !distances.is_empty());
 /// # Ok::<(), argil_graph::GraphError>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct DistanceMatrix {
     count: usize,
     lengths: Vec<f64>,
 }
 
 impl DistanceMatrix {
-    /// A matrix of zeros.
-    pub(crate) fn zero(count: usize) -> DistanceMatrix {
-        DistanceMatrix { count, lengths: vec![0.0; count * count] }
+    /// Makes it as large as a list of so many needs, with zeros from each to itself; what else is in it has still to be set.
+    pub(crate) fn resize(&mut self, count: usize) {
+        self.count = count;
+        self.lengths.resize(count * count, 0.0);
+        self.lengths.iter_mut().step_by(count + 1).for_each(|own| *own = 0.0);
     }
 
     /// Sets the length between two entries of the list, which must exist, in both directions.
@@ -49,18 +51,18 @@ impl DistanceMatrix {
         }
     }
 
-    /// The matrix of a list whose entries are, in this order, the entries `places` of this one's; what is
+    /// Makes it the matrix of a list whose entries are, in this order, the entries `places` of this one's; what is
     /// [`NOWHERE`] is infinitely far from all, even itself.
-    pub(crate) fn renumbered(self, places: &[u32]) -> DistanceMatrix {
+    pub(crate) fn renumber(&mut self, places: &[u32]) {
         if places.len() == self.count && places.iter().zip(0..).all(|(&place, k)| place == k) {
-            return self;
+            return;
         }
         let mut lengths = Vec::with_capacity(places.len() * places.len());
         for &from in places {
             let row = self.row(from as usize);
             lengths.extend(places.iter().map(|&to| row.get(to as usize).copied().unwrap_or(f64::INFINITY)));
         }
-        DistanceMatrix { count: places.len(), lengths }
+        *self = Self { count: places.len(), lengths };
     }
 
     /// How many vertices the list had.

@@ -45,16 +45,44 @@ impl PathGraph {
     /// ```
     #[must_use]
     pub fn distances(&self, among: &[u32]) -> DistanceMatrix {
+        let mut matrix = DistanceMatrix::default();
+        self.distances_into(among, &mut matrix);
+        matrix
+    }
+
+    /// The same lengths into a matrix that is there already, whatever is in it, so that layer after layer uses the memory of one.
+    ///
+    /// Of a list that [`arrange`](Self::arrange) has put in order, and a matrix at least as large, nothing is allocated but what the sweeps
+    /// need: about 130 bytes a vertex.
+    ///
+    /// # Complexity
+    /// That of [`distances`](Self::distances), less the time in which the system gives memory out and wipes it: a fifth to a half of the whole.
+    ///
+    /// # Example
+    /// ```
+    /// use argil_graph::{DistanceMatrix, PathGraph};
+    /// use glam::dvec2;
+    ///
+    /// let mut matrix = DistanceMatrix::default();
+    /// for length in [1.0, 2.0] {
+    ///     let row = vec![dvec2(0.0, 0.0), dvec2(length, 0.0)];
+    ///     let graph = PathGraph::from_edges(row, &[], &[], &[(0, 1, length)])?;
+    ///     graph.distances_into(&[0, 1], &mut matrix);
+    ///     assert_eq!(matrix.row(0), [0.0, length]);
+    /// }
+    /// # Ok::<(), argil_graph::GraphError>(())
+    /// ```
+    pub fn distances_into(&self, among: &[u32], matrix: &mut DistanceMatrix) {
         let hierarchy = self.hierarchy();
         let Sources { ranks: sources, places } = Sources::of(hierarchy, among);
-        let mut by_rank = DistanceMatrix::zero(sources.len());
+        matrix.resize(sources.len());
         let mut sweep = Sweep::new(hierarchy, &sources);
         let vectors = Vectors::here();
         for first in (0..sources.len()).step_by(LANES) {
-            vectors.run(Batch { sweep: &mut sweep, sources: &sources, first, matrix: &mut by_rank });
+            vectors.run(Batch { sweep: &mut sweep, sources: &sources, first, matrix });
         }
-        self.join_neighbouring_attachments(&sources, &mut by_rank);
-        by_rank.renumbered(&places)
+        self.join_neighbouring_attachments(&sources, matrix);
+        matrix.renumber(&places);
     }
 
     /// Puts vertices into the order in which distances among them are found, so that [`distances`](Self::distances)
