@@ -56,7 +56,7 @@ impl PathGraph {
     /// need: about 130 bytes a vertex.
     ///
     /// # Complexity
-    /// That of [`distances`](Self::distances), less the time in which the system gives memory out and wipes it: a fifth to a half of the whole.
+    /// That of [`distances`](Self::distances), less the time in which the system gives memory out and wipes it.
     ///
     /// # Example
     /// ```
