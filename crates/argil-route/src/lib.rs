@@ -24,6 +24,7 @@ mod region_plan;
 mod relaxation;
 mod round_tour;
 mod settings;
+mod sketch;
 mod spine;
 mod spliced;
 mod straight;

@@ -13,6 +13,7 @@ use crate::cycle::Leg;
 use crate::excursion::{Excursion, Hops, Stops};
 use crate::joint::{Reuse, join_walls};
 use crate::round_tour::{meeting_places, taken_along};
+use crate::sketch::{Sketch, Stop};
 use crate::spine::LANES;
 use crate::straight::Straight;
 use crate::tours::{TourDistances, Tours};
@@ -80,27 +81,6 @@ const BETWEEN: f64 = 0.04;
 
 /// What it counts there: it pierces the wall at both ends and lies on the bead of the lanes. A hop from lane to lane is short enough.
 const BETWEEN_COST: f64 = 5.0;
-
-/// A stop of a sketched tour.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Stop {
-    Demand(usize),
-    Place(usize),
-}
-
-/// Which tours a region is to have, before they are drawn.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Sketch {
-    /// Places on walls: (index among the region's walls, arc).
-    pub(crate) places: Vec<(usize, f64)>,
-    pub(crate) tours: Vec<Vec<Stop>>,
-    /// Whether the first tour goes through all walls.
-    round: bool,
-    /// Whether the stops of each tour are in an order to begin the search from.
-    ordered: bool,
-    /// Whether the demands were moved towards the tours already.
-    moved: bool,
-}
 
 impl RegionView<'_> {
     /// Plans the region: excursions, or one tour through all, whichever is cheaper; then again with the
@@ -309,8 +289,7 @@ impl RegionView<'_> {
     /// Where one tour through the walls and the given points meets each of the walls.
     fn met_by_one_tour(&self, points: &[DVec2], taken: &mut Attachments) -> Vec<(usize, f64)> {
         let walls: Vec<&ClosedCurve> = (0..self.walls.len()).map(|w| self.wall(w)).collect();
-        let wanted = meeting_places(&walls, points, &self.settings.tour);
-        let wanted = wanted.into_iter().enumerate();
+        let wanted = meeting_places(&walls, points, &self.settings.tour).into_iter().enumerate();
         wanted
             .map(|(local, arc)| {
                 // It has to get on from there to the next wall.

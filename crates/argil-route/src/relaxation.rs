@@ -4,7 +4,8 @@ use argil_curve::{DVec2, on_grid};
 
 use crate::RouteError;
 use crate::discs::Discs;
-use crate::region_plan::{RegionPlan, RegionView, Sketch, Stop};
+use crate::region_plan::{RegionPlan, RegionView};
+use crate::sketch::{Sketch, Stop};
 
 impl RegionView<'_> {
     /// The demands moved within their slack towards the straight ways between the stops of a sketch.

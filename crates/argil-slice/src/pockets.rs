@@ -49,6 +49,9 @@ pub(crate) fn with_bays(
     outline: &[Vec<DVec2>],
     width: f64,
 ) -> Polygon<f64> {
+    if polygon.interiors().is_empty() {
+        return polygon;
+    }
     let outer = sides_of([polygon.exterior()], width);
     let deep = |hole: &LineString<f64>| {
         let middles = sides(&ring_points(hole)).map(|side| side.point_at(0.5)).collect::<Vec<_>>();
